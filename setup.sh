@@ -152,7 +152,7 @@ build() {
 
 # The code that reads strangers' files and computes forces, with every access and every operation checked.
 run_sanitized() {
-  local build="$ROOT/build/sanitized" test options
+  local build="$ROOT/build/sanitized" test options jobs shard shards
   step="building in build/sanitized"
   say "Building the unit tests of Core, Haptics and IO with sanitizers in build/sanitized"
   options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DPOINTHAPTICS_SANITIZE=address,undefined
@@ -161,13 +161,22 @@ run_sanitized() {
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   cmake -S "$ROOT" -B "$build" -G Ninja "${options[@]}"
-  cmake --build "$build" --parallel "${BUILD_JOBS:-$(number_of_jobs)}" \
+  jobs="${BUILD_JOBS:-$(number_of_jobs)}"
+  cmake --build "$build" --parallel "$jobs" \
     --target PointHapticsCoreTest PointHapticsHapticsTest PointHapticsIOTest
   # Two sets of tests take minutes and check how a ball moves, not memory.
   for test in Core Haptics IO; do
     step="running the unit tests of $test with sanitizers"
-    UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 "$build/bin/PointHaptics${test}Test" --gtest_brief=1 \
-      --gtest_filter='-BallCells.GathersEveryPointInReach*:Seeds/*'
+    shards=()
+    for ((shard = 0; shard < jobs; ++shard)); do
+      GTEST_TOTAL_SHARDS="$jobs" GTEST_SHARD_INDEX="$shard" UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
+        "$build/bin/PointHaptics${test}Test" --gtest_brief=1 \
+        --gtest_filter='-BallCells.GathersEveryPointInReach*:Seeds/*' &
+      shards+=("$!")
+    done
+    for shard in "${shards[@]}"; do
+      wait "$shard"
+    done
   done
 }
 

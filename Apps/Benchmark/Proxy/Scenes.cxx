@@ -1,5 +1,7 @@
 #include "Benchmark/Proxy/Scenes.h"
 
+#include "SmpExecutor.h"
+
 #include "Core/Bandwidth/LocalBandwidth.h"
 #include "Core/Neighbors/NeighborQuery.h"
 #include "Core/Resample/TransformedBounds.h"
@@ -30,7 +32,7 @@ bool resample(const std::vector<Vec3>& points, const SceneSettings& settings, Ha
   VoxelResampler voxels;
   if (makeLattice(latticeSettings, transformedBounds(view, settings.transform), request.lattice) !=
       Status::Ok ||
-    voxels.run(request) != Status::Ok)
+    voxels.run(request, SmpExecutor()) != Status::Ok)
   {
     return false;
   }
@@ -63,10 +65,11 @@ Scene sceneOf(const std::vector<Vec3>& points, const SceneSettings& settings)
   // The proxy's radius from the bandwidth, as the program does.
   const PointView felt(input.points.data(), std::int64_t(input.points.size()));
   NeighborQuery query;
-  query.build(felt);
+  const SmpExecutor executor;
+  query.build(felt, executor);
   std::vector<double> bandwidths;
-  Status status = localBandwidths(felt, input.counts, query, {}, bandwidths, input.proxyRadii);
-  return status == Status::Ok ? HapticScene::create(std::move(input), status) : nullptr;
+  Status status = localBandwidths(felt, input.counts, query, {}, bandwidths, input.proxyRadii, executor);
+  return status == Status::Ok ? HapticScene::create(std::move(input), status, executor) : nullptr;
 }
 
 std::vector<Vec3> pointsOf(Shape shape, std::int64_t count, double noise)

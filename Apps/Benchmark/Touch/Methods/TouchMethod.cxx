@@ -2,6 +2,8 @@
 
 #include "Benchmark/Touch/Methods/LateScenes.h"
 
+#include "SmpExecutor.h"
+
 #include <algorithm>
 #include <optional>
 
@@ -82,7 +84,7 @@ TouchScene makeTouchScene(std::vector<Vec3> points, const TouchSceneSettings& se
   {
     const auto index = std::make_shared<PointIndex>();
     const PointView view(scene.points->data(), std::int64_t(scene.points->size()));
-    scene.local = index->build(view) == Status::Ok ? index : nullptr;
+    scene.local = index->build(view, SmpExecutor()) == Status::Ok ? index : nullptr;
   }
   return scene;
 }
