@@ -421,6 +421,8 @@ TEST_F(HapticViewerTest, ShowsACoarseLevelAtOnceAndThenAllPointsWhereTheyWere)
   const HapticViewerState coarse = state;
   const auto coarseColors = colorsByPlace(viewer);
   EXPECT_EQ(coarseColors.size(), 200u);
+  EXPECT_TRUE(viewer.style()->GetCommands().run("turn-up")); // instead of all points,
+  EXPECT_TRUE(viewer.style()->GetCommands().run("leave"));   // which come where that is given up
   for (int i = 0; i < 4000 && viewer.numberOfPoints() != 1000; ++i)
   {
     int timer = 1;

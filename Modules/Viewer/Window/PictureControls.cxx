@@ -260,14 +260,12 @@ void PictureControls::hide(std::vector<HiddenValues> hidden)
   context_.clipped(); // after what was said: a recording that ends says so
 }
 
-void PictureControls::forgetHeights()
+void PictureControls::forgetHeights(PictureSettings& picture) const
 {
-  PictureSettings& picture = context_.options.picture;
   picture.colorRange.resize(context_.scene.colorArray() == kHeightArrayName ? 0 : picture.colorRange.size());
-  std::vector<HiddenValues> hidden;
-  std::copy_if(picture.hidden.begin(), picture.hidden.end(), std::back_inserter(hidden),
-    [](const HiddenValues& each) { return each.array != kHeightArrayName; });
-  hidden != picture.hidden ? this->hide(std::move(hidden)) : void();
+  const auto isOfHeights = [](const HiddenValues& each) { return each.array == kHeightArrayName; };
+  picture.hidden.erase(
+    std::remove_if(picture.hidden.begin(), picture.hidden.end(), isOfHeights), picture.hidden.end());
 }
 
 void PictureControls::toggleLabel(double label)

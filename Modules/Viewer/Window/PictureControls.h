@@ -27,7 +27,7 @@ public:
   bool leaveFullScreen() { return fullScreen_.isFull() && fullScreen_.set(false); }
   void toggleFullScreen();
   /// Forgets ranges of heights, which will be along another axis.
-  void forgetHeights();
+  void forgetHeights(PictureSettings& picture) const;
   /// Makes the point under the mouse the one that the view turns about, in the middle of the picture.
   void setPivot();
   /// False: nobody walks.

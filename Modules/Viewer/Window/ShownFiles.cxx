@@ -55,6 +55,10 @@ void ShownFiles::load(const std::vector<std::string>& files, FileLoad::Kind kind
     options.picture.colorRange = asked_.picture.colorRange;
     options.picture.hidden.clear();
   }
+  if (kind == FileLoad::Kind::Turned)
+  {
+    controls_.forgetHeights(options.picture);
+  }
   options.up = up.empty() ? this->upOf(files.front()) : up;
   loading_ = { files, kind, options, std::move(then), {}, FileWatch() };
   loading_.watch.watch(files);
@@ -89,7 +93,7 @@ void ShownFiles::open(const std::vector<std::string>& files)
 
 void ShownFiles::refine()
 {
-  if (context_.scene.isCoarse())
+  if (context_.scene.isCoarse() && !loader_.busy())
   {
     const auto say = [this]
     {
@@ -137,6 +141,7 @@ void ShownFiles::take()
   {
     window_.complain(message); // the window shows what it showed before
     this->end(&FileLoad::failed);
+    isFiner ? void() : this->refine();
     return;
   }
   const std::vector<std::string> notes = isFiner ? std::vector<std::string>() : cloud.notes; // they were told
@@ -170,6 +175,7 @@ bool ShownFiles::cancel()
   context_.say(titleOf(loading_.files) + ": not read" + (isFiner ? " to its end" : "") +
     ", it was cancelled; the " + (isFiner ? "coarse level" : "former cloud") + " stays");
   this->end();
+  isFiner ? void() : this->refine();
   return true;
 }
 
@@ -211,7 +217,6 @@ void ShownFiles::turnUp()
   const std::string present = isTurning ? loading_.options.up : axisName(context_.scene.cloudUp());
   const auto* found = std::find(std::begin(kAxes), std::end(kAxes), present);
   const std::string next = kAxes[(found - std::begin(kAxes) + 1) % std::size(kAxes)];
-  controls_.forgetHeights();
   const auto keep = [this, next]
   {
     ups_[shown_.front()] = next;

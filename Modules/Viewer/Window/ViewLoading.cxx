@@ -73,6 +73,10 @@ void ViewWindow::show(LoadedCloud cloud, const FileLoad& load)
   {
     player_->stop(); // it is of the former cloud
   }
+  if (load.kind == FileLoad::Kind::Turned)
+  {
+    controls_.forgetHeights(options_.picture);
+  }
   // From here on the window shows the new cloud, also where none of it lies in the workspace.
   if (!scene_.open(std::move(cloud), load.options, message))
   {
