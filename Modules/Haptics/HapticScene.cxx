@@ -109,19 +109,18 @@ double typicalSpacing(const CellPyramid& pyramid, double extent)
 /// Builds the pyramid with the requested cells, or with coarser ones where those would be empty between the
 /// points.
 Status buildPyramid(
-  std::vector<Cell> cells, double asked, double extent, const Vec3* corner, CellPyramid& pyramid)
+  const std::vector<Cell>& cells, double asked, double extent, const Vec3* corner, CellPyramid& pyramid)
 {
-  std::vector<std::uint32_t> source;
   const double guess = extent > 0.0 ? extent / std::sqrt(double(cells.size())) : kCellWithoutExtent;
   const double first = asked > 0.0 ? std::max(asked, extent / kMostCellsAcross) : guess;
-  const Status status = pyramid.build(cells, first, source, corner);
+  const Status status = pyramid.build(cells, first, corner);
   if (status != Status::Ok)
   {
     return status;
   }
   const double wanted = std::max(asked, kCellInSpacings * typicalSpacing(pyramid, extent));
   const bool fits = wanted <= kCellTolerance * first && (asked > 0.0 || wanted >= first / kCellTolerance);
-  return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(std::move(cells), wanted, source, corner);
+  return fits || !(wanted > 0.0) ? Status::Ok : pyramid.build(cells, wanted, corner);
 }
 
 std::uint64_t nextCloudNumber()
@@ -283,12 +282,11 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   Status status = Status::InvalidParameter;
   if (given > 0.0 && (aligned || input.local))
   {
-    std::vector<std::uint32_t> source;
-    status = pyramid.build(std::move(cells), given, source, corner);
+    status = pyramid.build(cells, given, corner);
   }
   else if (!input.region || (aligned && !input.region->globalScene()))
   {
-    status = buildPyramid(std::move(cells), input.cellSize, norm(bounds.extent()), corner, pyramid);
+    status = buildPyramid(cells, input.cellSize, norm(bounds.extent()), corner, pyramid);
   }
   if (status == Status::Ok)
   {
@@ -327,11 +325,9 @@ void HapticScene::Cloud::refineContact(double asked, const Executor& executor)
     cell.count = 1.0;
     cells.push_back(cell);
   }
-  std::vector<std::uint32_t> source;
   contact = std::make_unique<CellPyramid>();
   const Vec3 corner = pyramid.corner();
-  if (contact->build(std::move(cells), std::max(asked, 0.5 * pyramid.level(0).voxelSize), source, &corner) !=
-    Status::Ok)
+  if (contact->build(cells, std::max(asked, 0.5 * pyramid.level(0).voxelSize), &corner) != Status::Ok)
   {
     contact.reset();
     sparse = 0.0;

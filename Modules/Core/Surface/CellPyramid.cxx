@@ -4,6 +4,7 @@
 #include "Core/Base/RadixSort.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace pointhaptics
 {
@@ -87,6 +88,25 @@ void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<Cel
   }
 }
 
+/// One cell for each of the @p count voxels that are twice as large as those of @p finer, which have these
+/// @p codes.
+std::vector<Cell> mergedByVoxel(
+  const CellPyramid::Level& finer, const std::vector<std::uint64_t>& codes, std::size_t count)
+{
+  std::vector<Cell> cells;
+  cells.reserve(count);
+  for (std::size_t slot = 0; slot < codes.size(); ++slot)
+  {
+    bool isFirst = slot == 0 || codes[slot] >> 3 != codes[slot - 1] >> 3;
+    for (std::size_t i = finer.slotBegin[slot]; i < finer.slotBegin[slot + 1]; ++i)
+    {
+      isFirst ? cells.push_back(finer.cells[i]) : void(cells.back() = merged(cells.back(), finer.cells[i]));
+      isFirst = false;
+    }
+  }
+  return cells;
+}
+
 /// True if the standard deviation of a covariance is above @p limit in every direction. Less limit^2 on the
 /// diagonal the covariance is then positive definite, so all pivots are above zero.
 bool isThick(const SymMat3& covariance, double limit)
@@ -127,11 +147,9 @@ Cell merged(const Cell& a, const Cell& b) noexcept
   return cell;
 }
 
-Status CellPyramid::build(
-  std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex, const Vec3* corner)
+Status CellPyramid::build(const std::vector<Cell>& cells, double voxelSize, const Vec3* corner)
 {
   levels_.clear();
-  sourceIndex.clear();
   if (cells.empty())
   {
     return Status::Empty;
@@ -158,13 +176,13 @@ Status CellPyramid::build(
     return Status::InvalidParameter;
   }
   std::vector<std::uint64_t> codes;
-  levels_.push_back(this->finestLevel(cells, voxelSize, codes, sourceIndex));
+  levels_.push_back(this->finestLevel(cells, voxelSize, codes));
   buildUpperLevels(codes, corner ? kCellLevels : 1);
   return Status::Ok;
 }
 
-CellPyramid::Level CellPyramid::finestLevel(const std::vector<Cell>& cells, double voxelSize,
-  std::vector<std::uint64_t>& codes, std::vector<std::uint32_t>& sourceIndex) const
+CellPyramid::Level CellPyramid::finestLevel(
+  const std::vector<Cell>& cells, double voxelSize, std::vector<std::uint64_t>& codes) const
 {
   struct Entry
   {
@@ -182,7 +200,6 @@ CellPyramid::Level CellPyramid::finestLevel(const std::vector<Cell>& cells, doub
   Level finest;
   finest.voxelSize = voxelSize;
   finest.cells.reserve(cells.size());
-  sourceIndex.reserve(cells.size());
   for (const Entry& entry : entries)
   {
     if (codes.empty() || codes.back() != entry.code)
@@ -190,7 +207,6 @@ CellPyramid::Level CellPyramid::finestLevel(const std::vector<Cell>& cells, doub
       codes.push_back(entry.code);
       finest.slotBegin.push_back(std::uint32_t(finest.cells.size()));
     }
-    sourceIndex.push_back(entry.source);
     finest.cells.push_back(cells[entry.source]);
     finest.cells.back().mixed = false;
   }
@@ -209,29 +225,16 @@ void CellPyramid::buildUpperLevels(const std::vector<std::uint64_t>& codes, int 
     level.voxelSize = 2.0 * finer.voxelSize;
     const bool withCells = int(levels_.size()) < kCellLevels;
     std::vector<std::uint64_t> here;
-    for (std::size_t slot = 0; slot < below.size(); ++slot)
+    for (const std::uint64_t code : below)
     {
-      const bool fresh = here.empty() || here.back() != below[slot] >> 3;
-      if (fresh)
-      {
-        here.push_back(below[slot] >> 3);
-      }
-      if (!withCells)
-      {
-        continue;
-      }
-      if (fresh)
-      {
-        level.slotBegin.push_back(std::uint32_t(level.cells.size()));
-      }
-      for (std::size_t i = finer.slotBegin[slot]; i < finer.slotBegin[slot + 1]; ++i)
-      {
-        const bool isFirst = level.slotBegin.back() == level.cells.size();
-        isFirst ? level.cells.push_back(finer.cells[i])
-                : void(level.cells.back() = merged(level.cells.back(), finer.cells[i]));
-      }
+      here.empty() || here.back() != code >> 3 ? here.push_back(code >> 3) : void();
     }
-    level.slotBegin.push_back(std::uint32_t(level.cells.size()));
+    if (withCells)
+    {
+      level.cells = mergedByVoxel(finer, below, here.size());
+    }
+    level.slotBegin.resize(level.cells.size() + 1); // a voxel has one cell
+    std::iota(level.slotBegin.begin(), level.slotBegin.end(), 0u);
     for (Cell& cell : level.cells)
     {
       cell.mixed = isThick(cell.covariance, kMixedThickness * level.voxelSize);

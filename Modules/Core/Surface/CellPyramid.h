@@ -53,15 +53,13 @@ public:
     std::vector<std::uint32_t> slotBegin; ///< Cells of slot s are [slotBegin[s], slotBegin[s + 1]).
   };
 
-  /// @param cells finite means; taken over and re-ordered. @param voxelSize edge of a level-0 voxel, above 0.
-  /// @param sourceIndex receives, for each cell of level 0, its index in @p cells as given.
+  /// @param cells finite means. @param voxelSize edge of a level-0 voxel, above 0.
   /// @param corner where given, a place no mean is below on any axis: the voxels of all levels are counted
   /// from there, not from the means' own corner, and all levels with cells are made. Pyramids with the same
   /// corner and voxels are then the same wherever their cells are, block of 2^(kCellLevels - 1) voxels by
   /// block. Errors: Empty, InvalidVoxelSize, LatticeNotAddressable (extent, from the corner, over voxelSize
   /// above 2^21, or over 2^32 cells), InvalidParameter (a mean below the corner).
-  Status build(std::vector<Cell> cells, double voxelSize, std::vector<std::uint32_t>& sourceIndex,
-    const Vec3* corner = nullptr);
+  Status build(const std::vector<Cell>& cells, double voxelSize, const Vec3* corner = nullptr);
 
   /// Clears the mixed flag of cells that are no thicker than a single sheet with noise. Call it before other
   /// threads read. @param noiseAt the standard deviation of the points about the surface at a position,
@@ -246,10 +244,10 @@ private:
     }
   }
 
-  /// Sorts the cells along the Morton curve. @p codes receives the distinct voxels' codes, @p sourceIndex
-  /// each cell's index.
-  Level finestLevel(const std::vector<Cell>& cells, double voxelSize, std::vector<std::uint64_t>& codes,
-    std::vector<std::uint32_t>& sourceIndex) const;
+  /// The cells in the order of the Morton curve; those of a voxel in the order in which they are given.
+  /// @p codes receives the distinct voxels' codes.
+  Level finestLevel(
+    const std::vector<Cell>& cells, double voxelSize, std::vector<std::uint64_t>& codes) const;
   void buildUpperLevels(const std::vector<std::uint64_t>& codes, int leastLevels);
 
   static constexpr int kMaximumLevels = 22;

@@ -30,8 +30,7 @@ CellPyramid saddle(int n, double voxelSize)
     cell.covariance.xz = 1e-10 * random.uniform();
   }
   CellPyramid pyramid;
-  std::vector<std::uint32_t> source;
-  EXPECT_EQ(pyramid.build(std::move(cells), voxelSize, source), Status::Ok);
+  EXPECT_EQ(pyramid.build(cells, voxelSize), Status::Ok);
   return pyramid;
 }
 

@@ -62,8 +62,7 @@ inline CellPyramid resampled(const std::vector<Vec3>& points, double voxelSize)
     cells[v].covariance = means.covariances[v];
   }
   CellPyramid pyramid;
-  std::vector<std::uint32_t> source;
-  EXPECT_EQ(pyramid.build(std::move(cells), voxelSize, source), Status::Ok);
+  EXPECT_EQ(pyramid.build(cells, voxelSize), Status::Ok);
   return pyramid;
 }
 

@@ -114,8 +114,7 @@ TEST(FitRadius, StaysNearTheCountRadiusOnACleanPlane)
     cell.mean = random.inBox({ -0.03, -0.03, 0 }, { 0.03, 0.03, 0 });
   }
   CellPyramid pyramid;
-  std::vector<std::uint32_t> source;
-  ASSERT_EQ(pyramid.build(cells, kCloudVoxel, source), Status::Ok);
+  ASSERT_EQ(pyramid.build(cells, kCloudVoxel), Status::Ok);
   const FitScale scale =
     chooseFitRadius(pyramid, pyramid.level(0).cells[10000].mean, 8e-3, 8e-3, *std::make_unique<FitCells>());
   EXPECT_LE(scale.radius, 1.6 * scale.countRadius);
@@ -174,8 +173,7 @@ TEST(FitScales, AreSmallWhereBarePointsHaveShapeAndNoNoise)
         waves * std::sin(1500.0 * p.x) * std::sin(1500.0 * p.y) + noise * random.normal() };
     }
     CellPyramid pyramid;
-    std::vector<std::uint32_t> source;
-    EXPECT_EQ(pyramid.build(cells, kCloudVoxel, source), Status::Ok);
+    EXPECT_EQ(pyramid.build(cells, kCloudVoxel), Status::Ok);
     FitNeeds needs;
     needs.finerWhereShaped = finer;
     std::vector<double> radii;

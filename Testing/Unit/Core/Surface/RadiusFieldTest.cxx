@@ -24,8 +24,7 @@ CellPyramid sheet()
     cells.push_back(cell);
   }
   CellPyramid pyramid;
-  std::vector<std::uint32_t> source;
-  EXPECT_EQ(pyramid.build(std::move(cells), kVoxel, source), Status::Ok);
+  EXPECT_EQ(pyramid.build(cells, kVoxel), Status::Ok);
   return pyramid;
 }
 

@@ -92,8 +92,7 @@ TEST(SurfaceFit, TracedFitIsExactForAnyCubicOnSinglePoints)
     cells.back().mean = frame.toWorld(kRadius * Vec3(u, v, z));
   }
   CellPyramid pyramid;
-  std::vector<std::uint32_t> source;
-  ASSERT_EQ(pyramid.build(std::move(cells), kRadius / 40.0, source), Status::Ok);
+  ASSERT_EQ(pyramid.build(cells, kRadius / 40.0), Status::Ok);
   const auto memory = std::make_unique<FitCells>();
   FitSettings settings;
   settings.radius = kRadius;
@@ -121,8 +120,7 @@ TEST(SurfaceFit, HasNoResidualOnSinglePointsOfAQuadric)
     cells.push_back(cell);
   }
   CellPyramid pyramid;
-  std::vector<std::uint32_t> source;
-  ASSERT_EQ(pyramid.build(std::move(cells), 1e-4, source), Status::Ok);
+  ASSERT_EQ(pyramid.build(cells, 1e-4), Status::Ok);
   FitSettings settings;
   settings.radius = 2e-3;
   const SurfaceFit fit = fitOnce(pyramid, frame, settings);

@@ -24,8 +24,7 @@ CellPyramid pyramidOf(const std::vector<Vec3>& points, double voxelSize)
     cells.push_back(cell);
   }
   CellPyramid pyramid;
-  std::vector<std::uint32_t> sourceIndex;
-  EXPECT_EQ(pyramid.build(std::move(cells), voxelSize, sourceIndex), Status::Ok);
+  EXPECT_EQ(pyramid.build(cells, voxelSize), Status::Ok);
   return pyramid;
 }
 
