@@ -1,11 +1,13 @@
 #include "StyleCommands.h"
 
 #include "ScreenMarks.h"
+#include "vtkDepthShadingPass.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
 
 #include "vtkCamera.h"
+#include "vtkMath.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 
@@ -38,6 +40,8 @@ constexpr double kLongestStep = 0.05;
 /// Radius of the ball that the hand rolls, and the way that scales by e.
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
+/// Radius of the middle of a picture, over its height: what is seen there is what one zooms at.
+constexpr double kMiddle = 0.06;
 
 /// Length of a step of the hand, metres, of at least @p shortest edges of the workspace; @p usual edges where
 /// the distance to the cloud is not known.
@@ -48,6 +52,40 @@ double handStep(vtkInteractorStyleHaptic& style, double usual, double shortest)
   shortest = distance && *distance > 0.0 ? std::max(shortest, kShortestStepToTouch) : shortest;
   return distance ? std::clamp(kStepOfDistance * *distance, shortest * edge, kLongestStep * edge)
                   : usual * edge;
+}
+
+/// A step of the wheel. Where the picture shows a surface nearer than the focal point it goes by a part of
+/// the way to that: by one of the way to the focal point, which lies in a statue, it would go through.
+void zoom(vtkInteractorStyleHaptic& style, int direction)
+{
+  vtkRenderer* renderer = style.GetScreen().renderer();
+  vtkCamera* camera = renderer ? renderer->GetActiveCamera() : nullptr;
+  double focus[3] = {};
+  double away = 0.0;
+  if (camera && !camera->GetParallelProjection())
+  {
+    const int* size = renderer->GetSize();
+    const int* origin = renderer->GetOrigin();
+    const double* from = camera->GetPosition();
+    double shown[3];
+    if (vtkDepthShadingPass::FindShown(
+          renderer, origin[0] + 0.5 * size[0], origin[1] + 0.5 * size[1], kMiddle * size[1], shown))
+    {
+      const double way[3] = { shown[0] - from[0], shown[1] - from[1], shown[2] - from[2] };
+      away = vtkMath::Dot(way, camera->GetDirectionOfProjection());
+    }
+  }
+  const bool isNearer = away > 0.0 && away < camera->GetDistance();
+  if (isNearer)
+  {
+    camera->GetFocalPoint(focus);
+    camera->SetDistance(away);
+  }
+  direction > 0 ? style.Camera::OnMouseWheelForward() : style.Camera::OnMouseWheelBackward();
+  if (isNearer)
+  {
+    camera->SetFocalPoint(focus);
+  }
 }
 
 void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
@@ -61,13 +99,9 @@ void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
     {
       style.GetHand().moveInDepth(direction * handStep(style, kDepthPerWheelStep, kShortestStep));
     }
-    else if (direction > 0)
-    {
-      style.Camera::OnMouseWheelForward();
-    }
     else
     {
-      style.Camera::OnMouseWheelBackward();
+      zoom(style, direction);
     }
   };
   const auto showAll = [&style]

@@ -112,8 +112,10 @@ std::string StatusText::statusLine(const ServoLoop* servo) const
   {
     const ServoSample latest = servo->latest();
     const ServoStatistics statistics = servo->statistics();
-    status += fmt::format("\nproxy radius {}    force {:.2f} N{}\nservo {:.0f} Hz, {} deadline miss{}{}",
-      lengthText(latest.state.radius), norm(latest.state.force),
+    const std::string radius =
+      latest.state.radius > 0.0 ? "proxy radius " + lengthText(latest.state.radius) + "    " : "";
+    status += fmt::format("\n{}force {:.2f} N{}\nservo {:.0f} Hz, {} deadline miss{}{}", radius,
+      norm(latest.state.force),
       latest.state.contact                  ? "    in contact"
         : latest.state.status & kProxyLetGo ? "    let go: the hand was too far from its contact"
                                             : "",

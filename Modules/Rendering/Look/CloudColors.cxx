@@ -28,6 +28,9 @@ constexpr double kRgbLight = 0.35;
 constexpr std::size_t kFewestClasses = 3;
 constexpr double kClayFlatness = 0.63;
 constexpr double kCoherent = 0.5;
+/// Range of heights that noise alone has, over its standard deviation; and of a plate, over the spacing.
+constexpr double kNoisyRange = 8.0;
+constexpr double kLeastRange = 1e-3;
 
 double at(const std::vector<double>& sorted, double part)
 {
@@ -216,7 +219,7 @@ CloudColors chooseColors(
   }
   measureRanges(cloud, look, colors);
   if (colors.rule == ColorRule::Height && look.kind == CloudKind::Terrain &&
-    colors.high - colors.low <= shape.medianSpacing)
+    colors.high - colors.low <= std::max(kNoisyRange * shape.noise, kLeastRange) * shape.medianSpacing)
   {
     colors.rule = ColorRule::Clay; // heights of a flat plate are one colour, or noise
   }

@@ -101,6 +101,11 @@ void ViewWindow::toggleRecording()
 
 void ViewWindow::setMarker()
 {
+  if (recordingWaits_)
+  {
+    this->say("no marker: recording begins when the hand lets go of the surface");
+    return;
+  }
   const std::uint32_t marker = recording_.mark(servo_.latest().tick, options_.markerText);
   this->say(marker > 0 ? fmt::format("marker {}", marker) : "no marker: nothing is recorded");
 }

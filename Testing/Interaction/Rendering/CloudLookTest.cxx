@@ -384,6 +384,13 @@ TEST_F(Colors, AreClayForAPlateWhoseHeightsAreNoise)
     use(plate);
     EXPECT_EQ(chosen(CloudKind::Terrain).rule, noise < 1.0 ? ColorRule::Clay : ColorRule::Height) << noise;
   }
+  std::vector<Vec3> waves = hills(100, 90); // lower than points are apart, and no noise
+  for (Vec3& p : waves)
+  {
+    p.z = 100.0 + 0.3 * std::sin(0.1 * p.x);
+  }
+  use(waves);
+  EXPECT_EQ(chosen(CloudKind::Terrain).rule, ColorRule::Height);
 }
 
 TEST_F(Colors, AreClassesWhereThereAreThree)
