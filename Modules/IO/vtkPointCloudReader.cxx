@@ -385,9 +385,9 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   {
     keepInside(task, cloud);
   }
-  if (isInDegrees && this->LocalMetres)
+  if (this->LocalMetres && (isInDegrees || pointhaptics::looksLikeDegrees(cloud)))
   {
-    cloud->ShallowCopy(pointhaptics::inLocalMetres(cloud));
+    cloud->ShallowCopy(pointhaptics::inLocalMetres(cloud, true));
     task.notes.emplace_back("x and y were degrees of longitude and latitude, and are metres to the east and "
                             "north of their medians");
   }

@@ -23,7 +23,6 @@ namespace fs = std::filesystem;
 
 namespace pointhaptics::io
 {
-
 namespace
 {
 
@@ -33,7 +32,6 @@ constexpr std::size_t kPackedAtOnce = std::size_t{ 1 } << 16;
 constexpr std::size_t kInspected = std::size_t{ 1 } << 16;
 constexpr int kGzipOnly = 16; ///< zlib: add to the window's bits to ask for gzip's header
 constexpr std::string_view kGzipMagic = "\x1f\x8b";
-
 constexpr const char* kStandardInput = "/dev/stdin";
 
 /// Throws where the file @p isWrong.

@@ -87,11 +87,11 @@ const Names kCoordinateWords = { { "x", "easting", "eastings", "east", "e", "rec
   { "y", "northing", "northings", "north", "n", "hochwert", "hoch", "hw", "nord", "nordwert", "norte",
     "latitude", "lat" },
   { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota", "quota",
-    "level", "rl", "nhn" } };
+    "level", "rl", "nhn", "hae", "ellipsoidalheight", "orthometricheight" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
   "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "grid", "mga",
-  "ahd", "vertex", "cartesian", "value" };
+  "ahd", "vertex", "cartesian", "value", "ellipsoidal", "ell", "orthometric", "ortho", "msl", "amsl" };
 /// Coordinates that count down.
 const std::vector<std::string> kDepths = { "depth", "depths", "tiefe" };
 const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };

@@ -250,7 +250,8 @@ def number(value: object, name: str, low: float, high: float, open_low: bool = F
     except OverflowError:
         result = np.inf
     if not (low < result if open_low else low <= result) or not result <= high or result == np.inf:
-        span = f"a finite number above {low:g}" if open_low and high == np.inf else f"a number from {low:g} to {high:g}"
+        least = f"above {low:g}" if open_low else f"from {low:g}"
+        span = f"a finite number {least}" if high == np.inf else f"a number {least} to {high:g}"
         raise ValueError(f"{name}: {value!r}; give {span}")
     return result
 
