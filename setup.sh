@@ -61,10 +61,9 @@ fail() {
 finish() {
   local code=$?
   trap - EXIT INT TERM
-  if [[ -n "$xvfb_pid" ]]; then
-    kill "$xvfb_pid" 2>/dev/null || true
-    wait "$xvfb_pid" 2>/dev/null || true
-  fi
+  # The X server, and tests that run beside one that failed.
+  kill $(jobs -p) 2>/dev/null || true
+  wait || true
   if [[ -n "$xvfb_folder" ]]; then
     rm -rf -- "$xvfb_folder"
   fi

@@ -6,7 +6,6 @@
 
 namespace pointhaptics::io
 {
-
 namespace
 {
 

@@ -360,21 +360,22 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
       "coordinates are floats so far from the origin that they lie on a grid of steps of " + steps +
       ", and no finer voxel means anything; export them as double, or with an offset taken away");
   }
-  const bool isInDegrees = pointhaptics::lengthUnitOf(cloud, Bounds()).name == "deg";
+  const auto isInDegrees = [cloud] { return pointhaptics::lengthUnitOf(cloud, Bounds()).name == "deg"; };
   if (pointhaptics::looksLikeDegrees(cloud))
   {
     task.notes.push_back("x and y may be degrees of longitude and latitude, by their range beside that of z: "
                          "view and feel take them so unless --unit is given");
+    this->LocalMetres ? io::addFieldText(cloud, "LengthUnit", "degree") : void();
   }
   if (const std::string heights = io::fieldText(cloud->GetFieldData(), pointhaptics::kHeightUnit);
       !heights.empty())
   {
     task.notes.push_back("heights are in " + heights + ", x and y in " +
-      (isInDegrees ? std::string("degrees")
-                   : io::fieldText(cloud->GetFieldData(), "LengthUnit") +
+      (isInDegrees() ? std::string("degrees")
+                     : io::fieldText(cloud->GetFieldData(), "LengthUnit") +
             ": lengths and voxels are wrong until heights are converted"));
   }
-  if (isInDegrees && !this->LocalMetres)
+  if (isInDegrees() && !this->LocalMetres)
   {
     task.notes.push_back(
       "x and y are degrees of longitude and latitude, which are no lengths; view and feel take metres "
@@ -385,9 +386,9 @@ void vtkPointCloudReader::Finish(io::ReadTask& task, vtkPolyData* cloud)
   {
     keepInside(task, cloud);
   }
-  if (this->LocalMetres && (isInDegrees || pointhaptics::looksLikeDegrees(cloud)))
+  if (this->LocalMetres && isInDegrees())
   {
-    cloud->ShallowCopy(pointhaptics::inLocalMetres(cloud, true));
+    cloud->ShallowCopy(pointhaptics::inLocalMetres(cloud));
     task.notes.emplace_back("x and y were degrees of longitude and latitude, and are metres to the east and "
                             "north of their medians");
   }

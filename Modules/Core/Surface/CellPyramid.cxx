@@ -88,8 +88,9 @@ void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<Cel
   }
 }
 
-/// One cell for each of the @p count voxels that are twice as large as those of @p finer, which have these
-/// @p codes.
+/// Merges the cells of @p finer into one for each voxel of twice the size. @p codes: codes of the finer
+/// voxels;
+/// @p count: number of the larger.
 std::vector<Cell> mergedByVoxel(
   const CellPyramid::Level& finer, const std::vector<std::uint64_t>& codes, std::size_t count)
 {

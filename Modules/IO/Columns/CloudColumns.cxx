@@ -87,11 +87,14 @@ const Names kCoordinateWords = { { "x", "easting", "eastings", "east", "e", "rec
   { "y", "northing", "northings", "north", "n", "hochwert", "hoch", "hw", "nord", "nordwert", "norte",
     "latitude", "lat" },
   { "z", "elevation", "elev", "height", "h", "altitude", "alt", "up", "hoehe", "h\xc3\xb6he", "cota", "quota",
-    "level", "rl", "nhn", "hae", "ellipsoidalheight", "orthometricheight" } };
+    "level", "rl", "nhn" },
+  // Heights that stand behind others.
+  { "h ell", "alt msl", "h msl", "ellipsoidal height", "ellipsoidalheight", "ellipsoid height", "height msl",
+    "orthometric height", "orthometricheight", "hae", "msl", "amsl" } };
 /// Words beside the name of a coordinate: "POINT_X", "x coordinate".
 const std::vector<std::string> kFillers = { "coord", "coords", "coordinate", "coordinates", "point", "points",
   "pos", "position", "positions", "xyz", "field", "world", "global", "local", "utm", "map", "grid", "mga",
-  "ahd", "vertex", "cartesian", "value", "ellipsoidal", "ell", "orthometric", "ortho", "msl", "amsl" };
+  "ahd", "vertex", "cartesian", "value" };
 /// Coordinates that count down.
 const std::vector<std::string> kDepths = { "depth", "depths", "tiefe" };
 const std::vector<std::string> kDegrees = { "longitude", "lon", "long", "lng", "latitude", "lat" };
@@ -110,11 +113,6 @@ bool isByte(int type)
 bool isWord(int type)
 {
   return type == VTK_UNSIGNED_SHORT || isByte(type);
-}
-
-bool isAny(int)
-{
-  return true;
 }
 
 /// The type that holds the values of both.
@@ -200,6 +198,7 @@ struct CoordinateName
   bool isPosition = false;
 
   bool isDepth() const { return has(kDepths, rest); }
+  bool isLast() const { return isDepth() || has(kCoordinateWords[3], rest); }
   explicit CoordinateName(const std::string& name)
   {
     const std::size_t bracket = std::min(name.find_first_of("[("), name.size());
@@ -241,7 +240,7 @@ struct CoordinateName
     const std::string letter(1, "xyz"[i]);
     const bool isNumbered = rest.size() > 1 && rest.size() < 4 && rest.substr(0, 1) == letter &&
       rest.find_first_not_of("0123456789", 1) == std::string::npos;
-    return has(kCoordinateWords[static_cast<std::size_t>(i)], rest) || isNumbered || (i == 2 && isDepth()) ||
+    return has(kCoordinateWords[static_cast<std::size_t>(i)], rest) || isNumbered || (i == 2 && isLast()) ||
       (isPosition && rest == std::to_string(i)) ||
       (rest.substr(0, 1) == letter && has(kFillers, rest.substr(1))) ||
       (rest.size() > 1 && rest.substr(rest.size() - 1) == letter &&
@@ -320,7 +319,7 @@ bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t
       const CoordinateName name(columns[i].name);
       if (columns[i].components == 1 && name.axis >= 0 &&
         (name.axis == 2 || (name.unit == "degree") == inDegrees) &&
-        (!name.isDepth() || found[2] == columns.size() || CoordinateName(columns[found[2]].name).isDepth()))
+        (!name.isLast() || found[2] == columns.size() || CoordinateName(columns[found[2]].name).isLast()))
       {
         found[static_cast<std::size_t>(name.axis)] = i;
       }
@@ -375,7 +374,7 @@ CloudColumns::CloudColumns(const std::vector<Column>& columns, vtkIdType rows)
 {
   planPoints();
   if (!planNamed(kColorsWithAlpha, "RGBA", &isByte) && !planNamed(kColors, "RGB", &isByte) &&
-    (planNamed(kColors, "Color16", &isWord) || planNamed(kColors, "Color", &isAny)))
+    (planNamed(kColors, "Color16", &isWord) || planNamed(kColors, "Color", [](int) { return true; })))
   {
     colors_ = arrays_.size() - 1;
   }

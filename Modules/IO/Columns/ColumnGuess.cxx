@@ -195,13 +195,12 @@ bool areRowAndColumn(const Columns& columns)
     areColors(columns, 5);
 }
 
-/// True if @p north and @p east look like northing and easting: of UTM, or with the zone before the easting.
+/// True if the columns @p north and @p east look like northing and easting of UTM.
 bool areMapCoordinates(const Columns& columns, std::size_t north, std::size_t east)
 {
   const auto isWithin = [&](std::size_t i, double least, double most)
   { return i < columns.size() && columns[i].least >= least && columns[i].most < most; };
-  return (isWithin(north, 1e6, 1e7) && isWithin(east, 1e5, 1e6)) ||
-    (isWithin(north, 5e6, 6.5e6) && isWithin(east, 2e6, 4.9e6));
+  return isWithin(north, 1e6, 1e7) && isWithin(east, 1e5, 1e6);
 }
 
 } // namespace
@@ -253,15 +252,17 @@ std::string takeSurveyAxes(const std::vector<ColumnEvidence>& columns, std::vect
   const bool isNorth = areMapCoordinates(columns, at[0], at[1]);
   const bool isYFirst = at[1] + 1 == at[0] && at[0] + 1 == at[2] && !areMapCoordinates(columns, at[1], at[0]);
   const std::string height = coordinateWord(names[at[2]]);
-  const bool isSurvey = isYFirst && ((height[0] == 'h' && height != "height") || isNorth);
+  const bool isOfSurvey = height[0] == 'h' && height != "height" && height != "hae";
+  const bool isSurvey = isYFirst && (isOfSurvey || isNorth);
   std::vector<std::string> others = names;
   std::swap(others[at[0]], others[at[1]]);
   isSurvey ? others.swap(names) : void();
   const char* const why = isYFirst ? "Y stands before X in the header" : "X is like northings";
   const char* const taken = isSurvey ? "the easting, as surveys have it" : "it is called";
-  return !isYFirst && !isNorth ? std::string()
-                               : fmt::format("{}, and is taken as {}; where that is wrong, give --columns {}",
-                                   why, taken, listOf(others));
+  return !isYFirst && !(isNorth && isOfSurvey)
+    ? std::string()
+    : fmt::format(
+        "{}, and is taken as {}; where that is wrong, give --columns {}", why, taken, listOf(others));
 }
 
 std::string listOf(const std::vector<std::string>& names)

@@ -7,7 +7,6 @@
 #include "vtkInteractorStyleHaptic.h"
 
 #include "vtkCamera.h"
-#include "vtkMath.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 
@@ -40,8 +39,10 @@ constexpr double kLongestStep = 0.05;
 /// Radius of the ball that the hand rolls, and the way that scales by e.
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
-/// Radius of the middle of a picture, over its height: what is seen there is what one zooms at.
+/// Radius of the disc in the middle of the picture that is searched for a surface, over the picture's height.
 constexpr double kMiddle = 0.06;
+/// Cosine of the widest angle between the view and a place that was found before: after a turn it is aside.
+constexpr double kAhead = 0.99;
 
 /// Length of a step of the hand, metres, of at least @p shortest edges of the workspace; @p usual edges where
 /// the distance to the cloud is not known.
@@ -54,9 +55,10 @@ double handStep(vtkInteractorStyleHaptic& style, double usual, double shortest)
                   : usual * edge;
 }
 
-/// A step of the wheel. Where the picture shows a surface nearer than the focal point it goes by a part of
-/// the way to that: by one of the way to the focal point, which lies in a statue, it would go through.
-void zoom(vtkInteractorStyleHaptic& style, int direction)
+/// Dollies by a part of the distance to the surface in the middle of the picture. The focal point may lie
+/// behind that surface, and a step by its distance would pass through. @p seen is the place that was found
+/// last: a picture that was given up for the next step shows none.
+void zoom(vtkInteractorStyleHaptic& style, int direction, std::optional<Vec3>& seen)
 {
   vtkRenderer* renderer = style.GetScreen().renderer();
   vtkCamera* camera = renderer ? renderer->GetActiveCamera() : nullptr;
@@ -66,14 +68,18 @@ void zoom(vtkInteractorStyleHaptic& style, int direction)
   {
     const int* size = renderer->GetSize();
     const int* origin = renderer->GetOrigin();
-    const double* from = camera->GetPosition();
-    double shown[3];
+    Vec3 shown;
     if (vtkDepthShadingPass::FindShown(
-          renderer, origin[0] + 0.5 * size[0], origin[1] + 0.5 * size[1], kMiddle * size[1], shown))
+          renderer, origin[0] + 0.5 * size[0], origin[1] + 0.5 * size[1], kMiddle * size[1], &shown.x))
     {
-      const double way[3] = { shown[0] - from[0], shown[1] - from[1], shown[2] - from[2] };
-      away = vtkMath::Dot(way, camera->GetDirectionOfProjection());
+      seen = shown;
     }
+    Vec3 eye;
+    Vec3 forward;
+    camera->GetPosition(&eye.x);
+    camera->GetDirectionOfProjection(&forward.x);
+    const Vec3 way = seen ? *seen - eye : Vec3();
+    away = dot(way, forward) > kAhead * norm(way) ? dot(way, forward) : 0.0;
   }
   const bool isNearer = away > 0.0 && away < camera->GetDistance();
   if (isNearer)
@@ -93,7 +99,7 @@ void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
   const auto drag = [&style](void (vtkInteractorStyle::*begin)(), void (vtkInteractorStyle::*end)()) {
     return DragAction{ [&style, begin] { (style.*begin)(); }, {}, [&style, end] { (style.*end)(); } };
   };
-  const auto dolly = [&style](int direction)
+  const auto dolly = [&style, seen = std::optional<Vec3>()](int direction) mutable
   {
     if (style.GetHand().followsMouse())
     {
@@ -101,7 +107,7 @@ void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
     }
     else
     {
-      zoom(style, direction);
+      zoom(style, direction, seen);
     }
   };
   const auto showAll = [&style]

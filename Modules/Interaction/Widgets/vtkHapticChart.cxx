@@ -264,7 +264,8 @@ void vtkHapticChart::ApplyColors()
     this->Chart->GetPlot(plot)->SetColor(color[0], color[1], color[2], 255);
   }
   styleAxis(this->Chart->GetAxis(vtkAxis::LEFT), kTitles[0], curves[which][1]);
-  styleAxis(this->Chart->GetAxis(vtkAxis::BOTTOM), "time (s)", ink[which]);
+  vtkAxis* const bottom = this->Chart->GetAxis(vtkAxis::BOTTOM);
+  styleAxis(bottom, std::string(bottom->GetTitle()).c_str(), ink[which]);
   styleAxis(this->Chart->GetAxis(vtkAxis::RIGHT), kTitles[1], curves[which][0]);
   for (const int axis : { vtkAxis::LEFT, vtkAxis::BOTTOM, vtkAxis::RIGHT })
   {

@@ -28,8 +28,9 @@ constexpr double kRgbLight = 0.35;
 constexpr std::size_t kFewestClasses = 3;
 constexpr double kClayFlatness = 0.63;
 constexpr double kCoherent = 0.5;
-/// Range of heights that noise alone has, over its standard deviation; and of a plate, over the spacing.
+/// Range of heights over their noise up to which they are noise: more, and a scanned table top is colourful.
 constexpr double kNoisyRange = 8.0;
+/// The same over the spacing: rounding of a flat plate is no relief.
 constexpr double kLeastRange = 1e-3;
 
 double at(const std::vector<double>& sorted, double part)

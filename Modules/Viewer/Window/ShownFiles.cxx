@@ -60,6 +60,7 @@ void ShownFiles::load(const std::vector<std::string>& files, FileLoad::Kind kind
     controls_.forgetHeights(options.picture);
   }
   options.up = up.empty() ? this->upOf(files.front()) : up;
+  wasFiner_ = wasFiner_ || loading_.kind == FileLoad::Kind::Finer;
   loading_ = { files, kind, options, std::move(then), {}, FileWatch() };
   loading_.watch.watch(files);
   CloudRequest request(files, options);
@@ -93,7 +94,8 @@ void ShownFiles::open(const std::vector<std::string>& files)
 
 void ShownFiles::refine()
 {
-  if (context_.scene.isCoarse() && !loader_.busy())
+  wasFiner_ = false;
+  if (context_.scene.isCoarse())
   {
     const auto say = [this]
     {
@@ -141,7 +143,7 @@ void ShownFiles::take()
   {
     window_.complain(message); // the window shows what it showed before
     this->end(&FileLoad::failed);
-    isFiner ? void() : this->refine();
+    wasFiner_ && !loader_.busy() ? this->refine() : void();
     return;
   }
   const std::vector<std::string> notes = isFiner ? std::vector<std::string>() : cloud.notes; // they were told
@@ -175,7 +177,7 @@ bool ShownFiles::cancel()
   context_.say(titleOf(loading_.files) + ": not read" + (isFiner ? " to its end" : "") +
     ", it was cancelled; the " + (isFiner ? "coarse level" : "former cloud") + " stays");
   this->end();
-  isFiner ? void() : this->refine();
+  wasFiner_ ? this->refine() : void();
   return true;
 }
 

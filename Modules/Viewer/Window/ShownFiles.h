@@ -101,7 +101,8 @@ private:
   std::map<std::string, std::string> ups_; ///< Axes that point up, of files.
   FileWatch watch_;
   int sinceLook_ = 0;
-  FileLoad loading_; ///< Valid while loader_ is busy.
+  bool wasFiner_ = false; ///< What is read took the place of the other points of a coarse cloud.
+  FileLoad loading_;      ///< Valid while loader_ is busy.
   Window window_;
   CloudLoader loader_;
 };

@@ -101,7 +101,7 @@ void ViewWindow::toggleRecording()
 
 void ViewWindow::setMarker()
 {
-  if (recordingWaits_)
+  if (recording_.isWaiting() && recordingWaits_)
   {
     this->say("no marker: recording begins when the hand lets go of the surface");
     return;
