@@ -9,6 +9,7 @@
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -28,6 +29,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -492,6 +494,27 @@ TEST_F(HapticViewerTest, LetsAHostAddAKeyAndKeepTheStyleForLonger)
   EXPECT_EQ(commands.help().find("axes and bounds"), std::string::npos);
   style->GetModel().scale(0.9);
   style->Refresh();
+}
+
+TEST_F(HapticViewerTest, TheWheelStaysBeforeTheSurfaceThatIsSeen)
+{
+  SKIP_WITHOUT_DISPLAY();
+  options_.device = HapticViewerDevice::None;
+  HapticViewer viewer(options_, observer_);
+  ASSERT_TRUE(viewer.open(makeSphere())) << viewer.message();
+  viewer.renderWindow()->SetOffScreenRendering(1);
+  ASSERT_TRUE(viewer.start()) << viewer.message();
+  double box[6];
+  viewer.means()->GetBounds(box);
+  for (int click = 0; click < 20; ++click)
+  {
+    viewer.interactor()->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
+  }
+  double from[3];
+  viewer.renderer()->GetActiveCamera()->GetPosition(from);
+  const double away = std::hypot(
+    from[0] - 0.5 * (box[0] + box[1]), from[1] - 0.5 * (box[2] + box[3]), from[2] - 0.5 * (box[4] + box[5]));
+  EXPECT_GT(away, 0.49 * (box[1] - box[0])) << "inside of the sphere";
 }
 
 } // namespace

@@ -88,9 +88,8 @@ void linkChildren(std::vector<CellPyramid::Brick>& bricks, const std::vector<Cel
   }
 }
 
-/// Merges the cells of @p finer into one for each voxel of twice the size. @p codes: codes of the finer
-/// voxels;
-/// @p count: number of the larger.
+/// Merges the cells of @p finer into one for each voxel of twice the size. @p codes are those of the finer
+/// voxels, @p count is the number of the larger ones.
 std::vector<Cell> mergedByVoxel(
   const CellPyramid::Level& finer, const std::vector<std::uint64_t>& codes, std::size_t count)
 {

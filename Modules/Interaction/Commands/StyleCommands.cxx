@@ -41,7 +41,8 @@ constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
 /// Radius of the disc in the middle of the picture that is searched for a surface, over the picture's height.
 constexpr double kMiddle = 0.06;
-/// Cosine of the widest angle between the view and a place that was found before: after a turn it is aside.
+/// Cosine of the widest angle between the view and a place that was found before. A place farther aside was
+/// seen before the view turned.
 constexpr double kAhead = 0.99;
 
 /// Length of a step of the hand, metres, of at least @p shortest edges of the workspace; @p usual edges where

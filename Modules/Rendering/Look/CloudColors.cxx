@@ -28,9 +28,11 @@ constexpr double kRgbLight = 0.35;
 constexpr std::size_t kFewestClasses = 3;
 constexpr double kClayFlatness = 0.63;
 constexpr double kCoherent = 0.5;
-/// Range of heights over their noise up to which they are noise: more, and a scanned table top is colourful.
+/// Largest ratio of the range of heights to their noise at which a plate is drawn as clay. With a smaller one
+/// the noise of a scanned table top is coloured.
 constexpr double kNoisyRange = 8.0;
-/// The same over the spacing: rounding of a flat plate is no relief.
+/// Largest ratio of the range of heights to the spacing at which a plate is drawn as clay in any case.
+/// Without it the rounding of coordinates is coloured.
 constexpr double kLeastRange = 1e-3;
 
 double at(const std::vector<double>& sorted, double part)
