@@ -7,9 +7,11 @@
 #include "Devices/HapticDevice.h"
 #include "Devices/SimulatedDevice.h"
 
+#include "vtkCamera.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
 #include "vtkStringArray.h"
 
 #include <algorithm>
@@ -276,6 +278,37 @@ void vtkInteractorStyleHaptic::OnMouseMove()
   else
   {
     this->Hand.follow();
+  }
+}
+
+void vtkInteractorStyleHaptic::Dolly(double factor)
+{
+  if (vtkRenderer* renderer = this->CurrentRenderer)
+  {
+    const int* size = renderer->GetSize();
+    const int* origin = renderer->GetOrigin();
+    this->Steps.look(renderer, origin[0] + 0.5 * size[0], origin[1] + 0.5 * size[1]);
+    // Not by what is seen far behind the pivot: the step would pass what lies about it.
+    this->Steps.run(renderer, renderer->GetActiveCamera()->GetDistance(),
+      [this, factor] { this->Superclass::Dolly(factor); });
+  }
+}
+
+void vtkInteractorStyleHaptic::StartPan()
+{
+  if (this->CurrentRenderer)
+  {
+    const int* at = this->Interactor->GetEventPosition();
+    this->Steps.look(this->CurrentRenderer, at[0], at[1]);
+  }
+  this->Superclass::StartPan();
+}
+
+void vtkInteractorStyleHaptic::Pan()
+{
+  if (this->CurrentRenderer)
+  {
+    this->Steps.run(this->CurrentRenderer, INFINITY, [this] { this->Superclass::Pan(); });
   }
 }
 

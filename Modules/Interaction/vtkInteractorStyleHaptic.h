@@ -48,6 +48,7 @@
 #ifndef vtkInteractorStyleHaptic_h
 #define vtkInteractorStyleHaptic_h
 
+#include "CameraSteps.h"          // For dolly and pan
 #include "CommandInput.h"         // For the drag under way
 #include "CommandRegistry.h"      // For the commands
 #include "DeviceClutch.h"         // For the device's buttons
@@ -216,10 +217,14 @@ public:
   void OnLeave() override;
   void OnTimer() override { this->Refresh(); }
   void OnDropFiles(vtkStringArray* filePaths) override;
+  void StartPan() override;
+  void Pan() override;
+  using Superclass::Dolly;
 
 protected:
   vtkInteractorStyleHaptic();
   ~vtkInteractorStyleHaptic() override;
+  void Dolly(double factor) override;
 
 private:
   vtkInteractorStyleHaptic(const vtkInteractorStyleHaptic&) = delete;
@@ -233,6 +238,7 @@ private:
   void SceneShown(const pointhaptics::BuiltScene& built);
 
   pointhaptics::ScreenView Screen;
+  pointhaptics::CameraSteps Steps;
   pointhaptics::CommandRegistry Commands;
   pointhaptics::CommandInput Input;
   pointhaptics::ModelTransform Model;

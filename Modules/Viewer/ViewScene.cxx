@@ -242,6 +242,11 @@ void ViewScene::chooseArrays()
 /// Colours points and means by the chosen array, or by the default where they lack it.
 void ViewScene::applyColors()
 {
+  // The colours of heights by default have no map: one that is asked for colours the array of heights.
+  if (colorBy_.empty() && picture_.colorMap != "auto" && shown_->colors.rule == ColorRule::Height)
+  {
+    colorBy_ = kHeightArrayName;
+  }
   vtkPolyData* output = bandwidth_->GetOutput();
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
   applyColorMap(mapper_, picture_.colorMap, picture_.colorRange);

@@ -496,7 +496,7 @@ TEST_F(HapticViewerTest, LetsAHostAddAKeyAndKeepTheStyleForLonger)
   style->Refresh();
 }
 
-TEST_F(HapticViewerTest, TheWheelStaysBeforeTheSurfaceThatIsSeen)
+TEST_F(HapticViewerTest, TheCameraStaysBeforeTheSurfaceThatIsSeen)
 {
   SKIP_WITHOUT_DISPLAY();
   options_.device = HapticViewerDevice::None;
@@ -510,6 +510,14 @@ TEST_F(HapticViewerTest, TheWheelStaysBeforeTheSurfaceThatIsSeen)
   {
     viewer.interactor()->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
   }
+  viewer.interactor()->SetEventInformation(100, 10);
+  viewer.interactor()->InvokeEvent(vtkCommand::RightButtonPressEvent);
+  for (int y = 20; y < 200; y += 20)
+  {
+    viewer.interactor()->SetEventInformation(100, y);
+    viewer.interactor()->InvokeEvent(vtkCommand::MouseMoveEvent);
+  }
+  viewer.interactor()->InvokeEvent(vtkCommand::RightButtonReleaseEvent);
   double from[3];
   viewer.renderer()->GetActiveCamera()->GetPosition(from);
   const double away = std::hypot(

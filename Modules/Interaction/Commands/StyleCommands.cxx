@@ -1,7 +1,6 @@
 #include "StyleCommands.h"
 
 #include "ScreenMarks.h"
-#include "vtkDepthShadingPass.h"
 #include "vtkHapticChart.h"
 #include "vtkHapticSliders.h"
 #include "vtkInteractorStyleHaptic.h"
@@ -39,11 +38,6 @@ constexpr double kLongestStep = 0.05;
 /// Radius of the ball that the hand rolls, and the way that scales by e.
 constexpr double kBallRadius = 0.25;
 constexpr double kWayPerScale = 0.25;
-/// Radius of the disc in the middle of the picture that is searched for a surface, over the picture's height.
-constexpr double kMiddle = 0.06;
-/// Cosine of the widest angle between the view and a place that was found before. A place farther aside was
-/// seen before the view turned.
-constexpr double kAhead = 0.99;
 
 /// Length of a step of the hand, metres, of at least @p shortest edges of the workspace; @p usual edges where
 /// the distance to the cloud is not known.
@@ -56,51 +50,12 @@ double handStep(vtkInteractorStyleHaptic& style, double usual, double shortest)
                   : usual * edge;
 }
 
-/// Dollies by a part of the distance to the surface in the middle of the picture. The focal point may lie
-/// behind that surface, and a step by its distance would pass through. @p seen is the place that was found
-/// last: a picture that was given up for the next step shows none.
-void zoom(vtkInteractorStyleHaptic& style, int direction, std::optional<Vec3>& seen)
-{
-  vtkRenderer* renderer = style.GetScreen().renderer();
-  vtkCamera* camera = renderer ? renderer->GetActiveCamera() : nullptr;
-  double focus[3] = {};
-  double away = 0.0;
-  if (camera && !camera->GetParallelProjection())
-  {
-    const int* size = renderer->GetSize();
-    const int* origin = renderer->GetOrigin();
-    Vec3 shown;
-    if (vtkDepthShadingPass::FindShown(
-          renderer, origin[0] + 0.5 * size[0], origin[1] + 0.5 * size[1], kMiddle * size[1], &shown.x))
-    {
-      seen = shown;
-    }
-    Vec3 eye;
-    Vec3 forward;
-    camera->GetPosition(&eye.x);
-    camera->GetDirectionOfProjection(&forward.x);
-    const Vec3 way = seen ? *seen - eye : Vec3();
-    away = dot(way, forward) > kAhead * norm(way) ? dot(way, forward) : 0.0;
-  }
-  const bool isNearer = away > 0.0 && away < camera->GetDistance();
-  if (isNearer)
-  {
-    camera->GetFocalPoint(focus);
-    camera->SetDistance(away);
-  }
-  direction > 0 ? style.Camera::OnMouseWheelForward() : style.Camera::OnMouseWheelBackward();
-  if (isNearer)
-  {
-    camera->SetFocalPoint(focus);
-  }
-}
-
 void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& style)
 {
   const auto drag = [&style](void (vtkInteractorStyle::*begin)(), void (vtkInteractorStyle::*end)()) {
     return DragAction{ [&style, begin] { (style.*begin)(); }, {}, [&style, end] { (style.*end)(); } };
   };
-  const auto dolly = [&style, seen = std::optional<Vec3>()](int direction) mutable
+  const auto dolly = [&style](int direction)
   {
     if (style.GetHand().followsMouse())
     {
@@ -108,7 +63,7 @@ void addCameraCommands(CommandRegistry& commands, vtkInteractorStyleHaptic& styl
     }
     else
     {
-      zoom(style, direction, seen);
+      direction > 0 ? style.Camera::OnMouseWheelForward() : style.Camera::OnMouseWheelBackward();
     }
   };
   const auto showAll = [&style]

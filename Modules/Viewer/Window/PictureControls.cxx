@@ -225,8 +225,9 @@ void PictureControls::showNextTheme()
 void PictureControls::showNextColorMap()
 {
   this->takeNext(context_.options.picture.colorMap, colorMapNames());
-  context_.say("colours: " + context_.options.picture.colorMap +
-    (context_.scene.isColoredByMap() ? "" : "; seen where numbers colour the cloud"));
+  context_.say("colour map: " + context_.options.picture.colorMap +
+    (context_.scene.isColoredByMap() ? ""
+                                     : "; " + context_.commands.label("colors") + " colours by an array"));
 }
 
 void PictureControls::dragColorRange(std::array<double, 2> range, double from, double to)
@@ -250,7 +251,7 @@ void PictureControls::resetColorRange()
 {
   context_.options.picture.colorRange.clear();
   this->apply();
-  context_.say("colours over all values");
+  context_.say("colour map over all values");
 }
 
 void PictureControls::hide(std::vector<HiddenValues> hidden)
@@ -302,8 +303,8 @@ void PictureControls::toggleOutside()
   }
   if (!context_.scene.isColoredByMap())
   {
-    context_.say(
-      "colour by numbers first, by " + context_.commands.label("colors") + "; then drag on the colour bar");
+    context_.say("hides values outside of the colour map; " + context_.commands.label("colors") +
+      " colours by an array");
     return;
   }
   const std::array<double, 2> range = context_.scene.shownColorRange();
@@ -311,7 +312,7 @@ void PictureControls::toggleOutside()
   if (!context_.scene.canHideBy(array))
   {
     context_.say(
-      array + " is computed for the picture and hides nothing; colour by heights or by numbers of the file");
+      array + " is computed for the picture and hides nothing; colour by heights or an array of the file");
     return;
   }
   context_.say(fmt::format("hidden: {} outside of {}", array, rangeText(range[0], range[1])));
@@ -382,8 +383,9 @@ void PictureControls::addCommands(CommandRegistry& commands, const Getter& contr
   show.add("background", "G", "background: dark, light, white, black", &Controls::showNextBackground);
   show.add("theme", "F9", "high contrast", &Controls::showNextTheme);
   show.add("color-map", "k", "next colour map", &Controls::showNextColorMap);
-  show.add("color-range", "K", "colours over all values", &Controls::resetColorRange);
-  show.add("hide-outside", "F10", "hide what is outside of the colours, show all", &Controls::toggleOutside);
+  show.add("color-range", "K", "colour map over all values", &Controls::resetColorRange);
+  show.add(
+    "hide-outside", "F10", "hide values outside of the colour map, show all", &Controls::toggleOutside);
   commands.addNote("Show", "click on a class or file", "hide, show; beside the colours");
   commands.addNote("Show", "drag on the colour bar", "colours over fewer or more values");
 }

@@ -184,7 +184,7 @@ ShiftTTurnsTheView() {
   [[ "$(setting camera "$settings" | tr -d ']' | awk -F, '{ print ($NF > 0.999999) }')" == 1 ]] || fail "the horizon is not level"
   same matrix || fail "the model turns"
   key k
-  said "colours: viridis"
+  said "colour map: viridis"
   key T
   said "turntable: stopped"
   write_settings
@@ -377,10 +377,10 @@ KeyKChangesTheColors() {
   make plane cloud.ply
   open_viewer cloud.ply --color-by density
   key k
-  said "colours: viridis"
+  said "colour map: viridis"
   picture 1
   key k
-  said "colours: cividis"
+  said "colour map: cividis"
   picture 2
   ! cmp -s pointhaptics-001.png pointhaptics-002.png || fail "the picture is the same"
   write_settings
@@ -404,7 +404,7 @@ ADragOnTheColorBarChangesItsRange() {
   same camera || fail "the view has turned"
   changed color-range || fail "the settings do not have the range"
   key K
-  said "colours over all values"
+  said "colour map over all values"
 }
 
 # The plane seen from above fills the window: a click on it always meets a point. Escape ends measuring, not the program.
