@@ -5,6 +5,7 @@
 #include "Commands/Commands.h"
 #include "Options/OptionParsing.h"
 #include "Terminal/CommandLine.h"
+#include "Terminal/LargePages.h"
 #include "Terminal/Messages.h"
 
 #include <CLI/CLI.hpp>
@@ -216,6 +217,10 @@ int runBench(std::vector<std::string> arguments)
 
 int main(int argc, char* argv[])
 {
+  if (argc > 1 && std::string(argv[1]) == "touch")
+  {
+    pointhaptics::app::beginWithLargePages(argv); // scenes are built as the view does
+  }
   pointhaptics::app::nameProgram("pointhaptics-bench");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return pointhaptics::app::runProgram(arguments, [&] { return pointhaptics::bench::runBench(arguments); });
