@@ -55,7 +55,7 @@ case "$1" in
     for options in "--dims 9" "--dims 9 --minimum-points 5 --representative nearest-to-mean --workspace 0.2,0.7,0,0.5,0,0.2"; do
       # shellcheck disable=SC2086 # several words
       "$PROGRAM" resample arrays.csv -o expected.vtp --voxel-index expected-index.csv $options >said
-      for ranks in 1 2 5; do
+      for ranks in 2 5; do
         # shellcheck disable=SC2086
         run_ranks "$ranks" resample arrays.csv -o out.vtp --voxel-index index.csv $options >said-by-ranks
         cmp expected.vtp out.vtp

@@ -11,7 +11,7 @@ from support import TestCase, sphere
 import numpy as np
 import pointhaptics as ph
 
-SIZES = 12
+SIZES = 8
 #: Exit codes of a child.
 DONE, NO_MEMORY, OTHER = 0, 3, 4
 

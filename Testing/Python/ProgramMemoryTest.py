@@ -8,7 +8,7 @@ import unittest
 
 from support import PROGRAM, TestCase, run_program
 
-SIZES = 12
+SIZES = 8
 ENOUGH = 4 << 30
 
 
