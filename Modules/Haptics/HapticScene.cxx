@@ -141,7 +141,7 @@ std::vector<Cell> finiteCells(const HapticSceneInput& input)
   cells.reserve(input.points.size());
   for (std::size_t i = 0; i < input.points.size(); ++i)
   {
-    if (!isFinite(input.points[i]) || (input.region && !input.region->holds(input.points[i])))
+    if (!isFinite(input.points[i]))
     {
       continue;
     }
@@ -167,59 +167,37 @@ double pointsPerCell(const CellPyramid& pyramid)
 
 /// Finds one radius per cell of @p nodes: that of the point of @p input nearest to the cell's mean (ties: the
 /// smaller index), taken from input.proxyRadii, or, where those are empty, computed by input.bandwidth for
-/// these points alone; the result is the same bit for bit. @p uses where given, one per node: others than
-/// NodeUse::All get 0.
+/// these points alone; the result is the same bit for bit.
 Status nodeRadii(const CellPyramid::Level& nodes, const HapticSceneInput& input, std::vector<double>& radii,
-  const Executor& executor, const std::vector<NodeUse>* uses)
+  const Executor& executor)
 {
   const PointView points(input.points.data(), std::int64_t(input.points.size()));
   NeighborQuery query;
   query.build(points, executor);
-  std::vector<std::size_t> asked;
-  for (std::size_t i = 0; i < nodes.cells.size(); ++i)
-  {
-    if (!uses || (*uses)[i] == NodeUse::All)
-    {
-      asked.push_back(i);
-    }
-  }
-  std::vector<std::int64_t> slots(asked.size(), 0);
+  std::vector<std::int64_t> slots(nodes.cells.size(), 0);
   forEachIndex(executor, std::int64_t(slots.size()),
     [&](std::int64_t i)
     {
       Neighbor nearest;
-      if (query.nearestSlots(nodes.cells[asked[std::size_t(i)]].mean, 1, &nearest) == 1)
+      if (query.nearestSlots(nodes.cells[std::size_t(i)].mean, 1, &nearest) == 1)
       {
         slots[std::size_t(i)] = NeighborQuery::slotOf(nearest);
       }
     });
-  std::vector<double> found;
   if (input.proxyRadii.empty())
   {
-    const Status status = localRadiiAt(points, input.counts, query, *input.bandwidth, slots, found, executor);
-    if (status != Status::Ok)
-    {
-      return status;
-    }
+    return localRadiiAt(points, input.counts, query, *input.bandwidth, slots, radii, executor);
   }
-  else
+  for (const std::int64_t slot : slots)
   {
-    for (const std::int64_t slot : slots)
-    {
-      found.push_back(input.proxyRadii[std::size_t(query.index(slot))]);
-    }
-  }
-  radii.assign(nodes.cells.size(), 0.0);
-  for (std::size_t i = 0; i < asked.size(); ++i)
-  {
-    radii[asked[i]] = found[i];
+    radii.push_back(input.proxyRadii[std::size_t(query.index(slot))]);
   }
   return Status::Ok;
 }
 
-/// Computes the fields at their nodes; in a local scene at those nodes that have enough cells.
+/// Computes the fields at their nodes.
 Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, double extent,
-  const Executor& executor, const std::vector<NodeUse>* uses, std::vector<LocalScale>& scales)
+  const Executor& executor, std::vector<LocalScale>& scales)
 {
   const double size = pyramid.level(0).voxelSize;
   const CellPyramid::Level& nodes = pyramid.level(RadiusField::nodeLevel(pyramid));
@@ -235,7 +213,7 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
   }
   else
   {
-    const Status status = nodeRadii(nodes, input, radii, executor, uses);
+    const Status status = nodeRadii(nodes, input, radii, executor);
     if (status != Status::Ok)
     {
       return status;
@@ -245,8 +223,7 @@ Status newScales(const HapticSceneInput& input, const CellPyramid& pyramid, doub
   // Finer cells do not exist.
   needs.finerWhereShaped = !input.local && pointsPerCell(pyramid) <= kPointsPerFineCell;
   const double largest = std::max(extent, kLargestFitRadiusInCells * size);
-  scales =
-    fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, uses, needs, input.instructions);
+  scales = fitScales(pyramid, largest, kLargestFitRadiusInCells * size, executor, needs, input.instructions);
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     scales[i].proxyRadius = radii[i];
@@ -269,33 +246,17 @@ Status HapticScene::Cloud::index(const HapticSceneInput& input, std::vector<Cell
   const bool ofVoxels = std::any_of(cells.begin(), cells.end(), merged);
   exactMoments = !input.covariances.empty() || !ofVoxels;
   const Vec3 above = input.corner ? bounds.minimum - *input.corner : Vec3{ -1.0, -1.0, -1.0 };
-  aligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
-  const Vec3* const corner = aligned ? &*input.corner : nullptr;
-  // A local scene has the cells of the global one: cells of neighbouring places must not differ.
-  const double given = input.local                ? input.cellSize
-    : input.region && input.region->globalScene() ? input.region->cellSize()
-                                                  : 0.0;
+  const bool isAligned = above.x >= 0.0 && above.y >= 0.0 && above.z >= 0.0;
+  const Vec3* const corner = isAligned ? &*input.corner : nullptr;
   if (norm(bounds.minimum) > kFarthest || norm(bounds.maximum) > kFarthest)
   {
     return Status::PointsTooFar;
   }
-  Status status = Status::InvalidParameter;
-  if (given > 0.0 && (aligned || input.local))
-  {
-    status = pyramid.build(cells, given, corner);
-  }
-  else if (!input.region || (aligned && !input.region->globalScene()))
-  {
-    status = buildPyramid(cells, input.cellSize, norm(bounds.extent()), corner, pyramid);
-  }
-  if (status == Status::Ok)
-  {
-    const double size = pyramid.level(0).voxelSize;
-    latticeCells = size == input.cellSize;
-    // Without a global scene the reach of a region is known only for cells as fine as voxels.
-    status = input.region && size != input.region->cellSize() ? Status::InvalidParameter : status;
-    leastCovering = ofVoxels ? kRadiusInSpacings * size : 0.0;
-  }
+  // Local scenes have cells of one size: cells of neighbouring places must not differ.
+  const Status status = input.local && input.cellSize > 0.0
+    ? pyramid.build(cells, input.cellSize, corner)
+    : buildPyramid(cells, input.cellSize, norm(bounds.extent()), corner, pyramid);
+  leastCovering = ofVoxels && status == Status::Ok ? kRadiusInSpacings * pyramid.level(0).voxelSize : 0.0;
   return status;
 }
 
@@ -310,14 +271,12 @@ void HapticScene::Cloud::refineContact(double asked, const Executor& executor)
   std::vector<Cell> cells = pyramid.level(0).cells;
   std::vector<Vec3> points(cells.size());
   std::transform(cells.begin(), cells.end(), points.begin(), [](const Cell& cell) { return cell.mean; });
-  const double apart = kSparseInVoxels * asked;
   const PointView view(points.data(), std::int64_t(points.size()));
-  const std::vector<Vec3> middles = surfaceMidpoints(view, apart, executor);
+  const std::vector<Vec3> middles = surfaceMidpoints(view, kSparseInVoxels * asked, executor);
   if (middles.empty())
   {
     return;
   }
-  sparse = apart;
   for (const Vec3& middle : middles)
   {
     Cell cell;
@@ -330,7 +289,6 @@ void HapticScene::Cloud::refineContact(double asked, const Executor& executor)
   if (contact->build(cells, std::max(asked, 0.5 * pyramid.level(0).voxelSize), &corner) != Status::Ok)
   {
     contact.reset();
-    sparse = 0.0;
   }
 }
 
@@ -349,7 +307,7 @@ void HapticScene::Cloud::buildField(const HapticSceneInput& input, const Executo
     settings.leastRadius = std::max(settings.leastRadius, input.bandwidth->minimumRadius);
     settings.mostRadius = input.bandwidth->maximumRadius;
   }
-  Bounds felt = input.local ? input.local->covered : input.region ? input.region->covered() : Bounds();
+  Bounds felt = input.local ? input.local->covered : Bounds();
   felt = felt.empty() ? felt : grown(felt, kSharedCells * pyramid.level(0).voxelSize);
   const HapticScene* const global = input.local ? input.local->global.get() : nullptr;
   std::function<double(const Vec3&)> coarser;
@@ -373,35 +331,19 @@ void HapticScene::Cloud::buildField(const HapticSceneInput& input, const Executo
 
 Status HapticScene::Cloud::measure(HapticSceneInput input, const Executor& executor)
 {
-  const std::optional<LocalRegion> region = std::move(input.region);
-  const std::vector<NodeUse> uses = region ? region->uses(pyramid) : std::vector<NodeUse>();
-  // With few points a fit may grow over the whole cloud.
-  const HapticScene* const global = region ? region->globalScene().get() : nullptr;
-  const double whole = global ? region->scale() * norm(global->bounds().extent()) : norm(bounds.extent());
   std::vector<LocalScale> scales;
-  const Status status = newScales(input, pyramid, whole, executor, region ? &uses : nullptr, scales);
+  // With few points a fit may grow over the whole cloud.
+  const Status status = newScales(input, pyramid, norm(bounds.extent()), executor, scales);
   if (status != Status::Ok)
   {
     return status;
   }
   input = HapticSceneInput(); // its memory is needed for the field
-  if (region && !region->completeScales(pyramid, uses, scales))
-  {
-    return Status::Empty;
-  }
   scale.build(pyramid, std::move(scales));
   pyramid.reclassifyMixedCells([this](const Vec3& place) { return scale.noiseAt(pyramid, place); });
   // Beyond a node's reach no cell of its voxel is nearer than the reach less the voxel's diagonal.
   const int nodeLevel = RadiusField::nodeLevel(pyramid);
   clearance = scale.reach() - std::sqrt(3.0) * pyramid.level(nodeLevel).voxelSize;
-  if (region)
-  {
-    covered = region->covered();
-  }
-  if (global)
-  {
-    scale.setTypical(scaled(global->typicalScale(), region->scale()));
-  }
   return Status::Ok;
 }
 
@@ -431,11 +373,9 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   }
   const auto cloud = std::make_shared<Cloud>();
   const std::optional<HapticSceneInput::Local> local = input.local;
-  std::shared_ptr<const HapticScene> global = input.region ? input.region->globalScene() : nullptr;
   status = cloud->index(input, std::move(cells));
-  // A fine local scene has cells as fine as its points; a regional one is as sparse as the global scene.
-  if (status == Status::Ok && !local &&
-    (global ? global->sparseSpacing() > 0.0 : cloud->isSparse(input.cellSize)))
+  // A local scene has cells as fine as its points.
+  if (status == Status::Ok && !local && cloud->isSparse(input.cellSize))
   {
     cloud->refineContact(input.cellSize, executor);
   }
@@ -448,16 +388,12 @@ std::shared_ptr<const HapticScene> HapticScene::create(
   {
     return nullptr;
   }
+  std::shared_ptr<HapticScene> scene(new HapticScene());
+  scene->modelToWorkspace_ = cloud->modelToLattice;
   if (local)
   {
     cloud->covered = local->covered;
-    global = local->global;
-  }
-  std::shared_ptr<HapticScene> scene(new HapticScene());
-  scene->modelToWorkspace_ = cloud->modelToLattice;
-  if (global)
-  {
-    scene->fallback_ = global->moved(cloud->modelToLattice, status);
+    scene->fallback_ = local->global->moved(cloud->modelToLattice, status);
     if (!scene->fallback_)
     {
       return nullptr;
@@ -494,14 +430,6 @@ std::shared_ptr<const HapticScene> HapticScene::moved(
     scene->fallback_ = fallback_->moved(modelToWorkspace, status);
   }
   return status == Status::Ok ? scene : nullptr;
-}
-
-std::shared_ptr<const HapticScene> HapticScene::withFallback(const HapticScene& global, Status& status) const
-{
-  std::shared_ptr<HapticScene> scene(new HapticScene(*this));
-  scene->number_ = nextSceneNumber();
-  scene->fallback_ = global.moved(modelToWorkspace_, status);
-  return scene->fallback_ ? scene : nullptr;
 }
 
 Bounds HapticScene::sharedWith(const HapticScene& other) const noexcept

@@ -10,7 +10,6 @@
 #include "Core/Surface/FitCells.h"
 #include "Core/Surface/RadiusField.h"
 #include "Haptics/ContactField.h"
-#include "Haptics/LocalRegion.h"
 #include "Haptics/SceneOrigin.h"
 
 #include <algorithm>
@@ -49,9 +48,6 @@ struct HapticSceneInput
     std::shared_ptr<const HapticScene> global; ///< The scene that is felt elsewhere; not null.
   };
   std::optional<Local> local;
-  /// Region of the cloud that this scene consists of; other points are left out. Where it has no global scene
-  /// the points must be dense enough for cells of cellSize.
-  std::optional<LocalRegion> region;
   /// Instructions to build it with, as far as this machine has them; the scene is the same, bit for bit.
   InstructionSet instructions = InstructionSet::Automatic;
   std::shared_ptr<const SceneOrigin> origin; ///< Origin of the points; null: not known.
@@ -86,8 +82,8 @@ public:
   /// similarity against the one of create() (shear, or a scale that differs by axis): resample. Any thread.
   std::shared_ptr<const HapticScene> moved(const AffineTransform& modelToWorkspace, Status& status) const;
 
-  /// The newest global scene, moved to the same place: it is felt where this local scene does not cover().
-  /// Null: this one is global, or no global scene is made yet.
+  /// The global scene, moved to the same place: it is felt where this local scene does not cover(). Null:
+  /// this one is global.
   const HapticScene* fallback() const { return fallback_.get(); }
   bool isLocal() const { return !cloud_->covered.empty(); }
   /// True if a hand at @p p (lattice frame) feels the same in a global scene.
@@ -102,9 +98,6 @@ public:
   {
     memory.carryOver(pyramid(), cloud_->scale, shared);
   }
-  /// This local scene with another fallback, which is moved to where this one is; null where it cannot be
-  /// moved (see moved()).
-  std::shared_ptr<const HapticScene> withFallback(const HapticScene& global, Status& status) const;
 
   std::size_t numberOfPoints() const { return pyramid().level(0).cells.size(); }
   const CellPyramid& pyramid() const { return cloud_->pyramid; }
@@ -112,8 +105,7 @@ public:
   /// The transform the points went through.
   const AffineTransform& modelToLattice() const { return cloud_->modelToLattice; }
   bool isMoved() const { return isMoved_; }
-  /// Number of this object, above 0: differs for each scene, also for those that moved() and withFallback()
-  /// make.
+  /// Number of this object, above 0: differs for each scene, also for those that moved() makes.
   std::uint64_t number() const { return number_; }
   /// Origin of the cloud; null: not known. Equal for scenes that share their cloud.
   const std::shared_ptr<const SceneOrigin>& origin() const { return cloud_->origin; }
@@ -171,12 +163,6 @@ public:
   const ContactField& contactField() const { return cloud_->field; }
   /// Edge of their finest index cell, metres.
   double contactCell() const { return contactPyramid().level(0).voxelSize; }
-  /// Spacing of the points above which midpoints are added; 0: there are none.
-  double sparseSpacing() const { return cloud_->sparse; }
-  /// True if the index cells are counted from the corner that create() was given.
-  bool isAligned() const { return cloud_->aligned; }
-  /// True if the index cells have the size that create() was given: the points are dense enough.
-  bool hasLatticeCells() const { return cloud_->latticeCells; }
   /// Standard deviation of the points about the surface near @p position, metres; 0 where no cell is near.
   double noise(const Vec3& position) const noexcept { return cloud_->scale.noiseAt(pyramid(), position); }
   /// Values of the fields far from the cloud.
@@ -199,11 +185,8 @@ private:
     Bounds bounds;
     Bounds covered; ///< Box in which a local scene is felt.
     double clearance = 0.0;
-    double sparse = 0.0;
     double leastCovering = 0.0; ///< coveringRadius() is not below this.
     bool exactMoments = true;
-    bool aligned = false;
-    bool latticeCells = false;
     std::uint64_t number = 0;
     std::shared_ptr<const SceneOrigin> origin;
 

@@ -198,7 +198,6 @@ std::shared_ptr<SceneOrigin> originOf(const Bounds& hand, const HapticScene& glo
 {
   const LatticeSettings& lattice = global.origin()->voxels.lattice;
   auto origin = std::make_shared<SceneOrigin>();
-  origin->kind = SceneOrigin::Kind::Fine;
   origin->voxels.lattice.automaticWorkspace = lattice.automaticWorkspace;
   origin->voxels.lattice.workspace = lattice.automaticWorkspace ? Bounds() : lattice.workspace;
   origin->bandwidth = global.origin()->bandwidth;

@@ -18,21 +18,16 @@ namespace pointhaptics
 /// Plain data.
 struct SceneOrigin
 {
-  enum class Kind
-  {
-    Whole,  ///< The whole cloud, resampled.
-    Region, ///< The points near the hand, as the whole cloud would be resampled (LocalRegion).
-    Fine,   ///< The points near the hand, as fine as they are dense (LocalSceneBuilder).
-  };
+  /// True of the points near a hand, as fine as they are dense (LocalSceneBuilder); false of the whole cloud.
+  bool isLocal() const { return globalCloud != 0; }
 
-  Kind kind = Kind::Whole;
-  VoxelMeanSettings voxels; ///< Settings of the resampler; for Fine its workspace alone.
+  VoxelMeanSettings voxels; ///< Settings of the resampler; of a local scene its workspace alone.
   std::optional<LocalBandwidthSettings> bandwidth;
   bool useCovariance = true;
   AffineTransform modelToWorkspace; ///< Transform of the points.
-  Bounds hand;                      ///< The box that Region and Fine were made about.
-  /// The global scene beside which Region or Fine was made; a Region may have none.
-  std::uint64_t globalCloud = 0; ///< HapticScene::cloudNumber() of it.
+  // Of a local scene:
+  Bounds hand;                   ///< The box that it was made about.
+  std::uint64_t globalCloud = 0; ///< HapticScene::cloudNumber() of the global scene beside it.
   std::shared_ptr<const SceneOrigin> global;
 };
 

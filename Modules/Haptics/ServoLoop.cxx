@@ -87,11 +87,6 @@ PublishedScene PublishedScene::of(const HapticScene* scene)
     published.modelToWorkspace = scene->modelToWorkspace();
     published.cloud = scene->cloudNumber();
     published.origin = scene->origin();
-    if (const HapticScene* fallback = scene->fallback())
-    {
-      published.fallbackCloud = fallback->cloudNumber();
-      published.fallbackOrigin = fallback->origin();
-    }
   }
   return published;
 }

@@ -75,8 +75,6 @@ struct PublishedScene
   AffineTransform modelToWorkspace;
   std::uint64_t cloud = 0;                   ///< HapticScene::cloudNumber().
   std::shared_ptr<const SceneOrigin> origin; ///< Origin of the cloud; null: not known.
-  std::uint64_t fallbackCloud = 0;           ///< Cloud number of HapticScene::fallback(); 0: there is none.
-  std::shared_ptr<const SceneOrigin> fallbackOrigin;
 };
 
 /// Parameters that a servo loop was given.

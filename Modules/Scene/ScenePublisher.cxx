@@ -32,27 +32,11 @@ void ScenePublisher::publish(
   std::shared_ptr<const HapticScene> scene, std::uint64_t cloud, std::uint64_t number)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (cloud != cloud_)
+  if (cloud != cloud_ || number < number_)
   {
     return;
   }
-  const bool isPart = scene && scene->isLocal();
-  const bool isFiner =
-    isPart && number == number_ && newest_ && scene->globalCloudNumber() == newest_->globalCloudNumber();
-  if (number < number_ || (isPart && number == number_ && !isFiner))
-  {
-    Status status = Status::Ok;
-    const bool joins = !isPart && scene && newest_ && newest_->isLocal();
-    scene = joins ? newest_->withFallback(*scene, status) : nullptr;
-    if (!scene)
-    {
-      return;
-    }
-  }
-  else
-  {
-    number_ = number;
-  }
+  number_ = number;
   newest_ = scene;
   if (scene && isMoved_ && !(scene->modelToWorkspace() == modelToWorkspace_))
   {

@@ -28,10 +28,9 @@ public:
   /// Notes that the model moved, and publishes the newest scene there. A scene that cannot be moved so, under
   /// shear or scales that differ by axis, is not published.
   void move(const AffineTransform& modelToWorkspace);
-  /// Publishes a scene of cloud @p cloud for request @p number, or null where there is nothing to feel, at
-  /// the present place of the model. Nothing happens if that cloud is gone, or a later request's scene is
-  /// there. Yet an earlier global scene becomes the fallback of a later local one (HapticScene::fallback()),
-  /// and a local scene that was made beside the global one of its request is published after it.
+  /// Publishes a scene of cloud @p cloud, or null where there is nothing to feel, at the present place of the
+  /// model. @param number of the request whose global scene this is, or is made beside: after that one.
+  /// Nothing happens if that cloud is gone, or a later request's scene is there.
   void publish(std::shared_ptr<const HapticScene> scene, std::uint64_t cloud, std::uint64_t number);
   /// Notes that another cloud comes: scenes of the old one are not moved any more.
   void startCloud();

@@ -38,15 +38,7 @@ struct Job
   std::uint64_t number = 0;
   SharedCloud cloud = std::make_shared<vtkSmartPointer<vtkPointSet>>();
   std::shared_ptr<const HapticScene> global; ///< The newest global scene of the cloud; null: none yet.
-};
-
-/// A thread of the worker. All members but the thread are guarded by the worker's mutex.
-struct Builder
-{
-  std::uint64_t begun = 0; ///< Number of the newest request that it has begun, or need not build.
-  bool isBuilding = false; ///< It works on a request.
-  bool isRefining = false; ///< It looks for a finer scene near the hand.
-  std::thread thread;
+  std::uint64_t globalNumber = 0;            ///< Number of the request it was made for.
 };
 
 } // namespace
@@ -68,96 +60,101 @@ struct SceneWorker::Implementation
   mutable std::mutex mutex;
   std::condition_variable changed;
   // Guarded by the mutex.
-  Job newest;                ///< The newest request, with the cloud of the next one.
-  std::uint64_t adopted = 0; ///< Scenes of requests until this one are dropped.
-  bool mayRefine = false;    ///< Finer scenes beside newest.global are wanted.
+  Job newest;              ///< The newest request, with the cloud of the next one.
+  std::uint64_t begun = 0; ///< Number of the newest request whose build has begun, or need not be built.
+  std::uint64_t first = 0; ///< Scenes of requests before this one are dropped.
   std::unique_ptr<BuiltScene> finished;
   std::uint64_t builds = 0;
+  bool isBuilding = false;
+  bool isRefining = false;  ///< A finer scene near the hand is looked for.
+  bool isCancelled = false; ///< None is wanted until the next request.
   bool ending = false;
-  Builder global;
-  Builder local;
-  // State of the thread near the hand.
-  Bounds seenHand;
-  int restingLooks = 0;
+  std::thread builder;
+  std::thread refiner;
 
-  void start(Builder& builder, void (Implementation::*build)());
-  bool busy(const Builder& builder) const { return builder.isBuilding || newest.number > builder.begun; }
-  bool busy() const { return busy(global) || busy(local); }
-  bool isCurrent(const Job& job) const { return job.cloud == newest.cloud && job.number > adopted; }
+  void start(std::thread& thread, void (Implementation::*work)());
+  bool busy() const { return isBuilding || newest.number > begun; }
+  bool isCurrent(const Job& job) const { return job.cloud == newest.cloud && job.number >= first; }
+  bool refines() const;
   std::uint64_t renew(SceneRequest request);
-  std::optional<Job> next(Builder& builder);
-  void waitForLocal(const Job& job);
+  std::optional<Job> nextBuild();
+  std::optional<Job> nextLook(const SharedCloud& held, std::chrono::milliseconds period);
   bool isFollowed() const;
-  void offerRefinement(const Job& job, const std::shared_ptr<const HapticScene>& scene);
+  void publish(const Job& job, const std::shared_ptr<const HapticScene>& scene);
   void buildGlobalScenes();
   void buildLocalScenes();
 };
 
 /// Where the system has no thread left it throws: to be called before anything waits for that thread.
-void SceneWorker::Implementation::start(Builder& builder, void (Implementation::*build)())
+void SceneWorker::Implementation::start(std::thread& thread, void (Implementation::*work)())
 {
-  if (!builder.thread.joinable())
+  if (!thread.joinable())
   {
-    builder.thread = std::thread([this, build] { (this->*build)(); });
+    thread = std::thread([this, work] { (this->*work)(); });
   }
+}
+
+/// True if finer scenes are wanted beside the newest global one. @pre the mutex is locked.
+bool SceneWorker::Implementation::refines() const
+{
+  const SceneRequest* const request = newest.request.get();
+  return !isCancelled && newest.global && request->refinesNearHand && request->hand && request->publish &&
+    request->recipe.useCovariance;
 }
 
 /// Takes a request in the place of the one before. @return its number. @pre the mutex is locked.
 std::uint64_t SceneWorker::Implementation::renew(SceneRequest request)
 {
   newest.request = std::make_shared<const SceneRequest>(std::move(request));
-  mayRefine = false;
+  isCancelled = false;
   return ++newest.number;
 }
 
-/// Ends the thread's last job and waits for the next one. Nothing: the thread must end.
-std::optional<Job> SceneWorker::Implementation::next(Builder& builder)
+/// Ends the last build and waits for the next one. Nothing: the thread must end.
+std::optional<Job> SceneWorker::Implementation::nextBuild()
 {
   std::unique_lock<std::mutex> lock(mutex);
-  builder.isBuilding = builder.isRefining = false;
+  isBuilding = false;
   changed.notify_all();
-  const auto isDue = [&] { return ending || newest.number > builder.begun; };
-  const auto refines = [&] { return &builder == &local && mayRefine; };
-  while (!isDue())
-  {
-    changed.wait(lock, [&] { return isDue() || refines(); });
-    const auto period = restingLooks < kRestingLooks ? kLookPeriod : kRestPeriod;
-    if (!changed.wait_for(lock, period, isDue) && refines())
-    {
-      builder.isRefining = true;
-      return newest;
-    }
-  }
-  builder.isBuilding = true;
-  builder.begun = newest.number;
+  changed.wait(lock, [this] { return ending || newest.number > begun; });
+  isBuilding = !ending;
+  begun = newest.number;
   return ending ? std::nullopt : std::optional<Job>(newest);
 }
 
-/// Lets the thread of the whole cloud wait until the other one is done with this job, or with a newer one:
-/// local scenes go first.
-void SceneWorker::Implementation::waitForLocal(const Job& job)
+/// Ends the last look at the hand and waits for the next one, at least @p period, or for another cloud than
+/// the one @p held. Nothing: the thread must end.
+std::optional<Job> SceneWorker::Implementation::nextLook(
+  const SharedCloud& held, std::chrono::milliseconds period)
 {
   std::unique_lock<std::mutex> lock(mutex);
-  changed.wait(lock, [&] { return ending || !busy(local) || local.begun > job.number; });
+  isRefining = false;
+  changed.notify_all();
+  const auto isDue = [&] { return ending || newest.cloud != held; };
+  changed.wait_for(lock, period, isDue);
+  changed.wait(lock, [&] { return isDue() || this->refines(); });
+  isRefining = !ending && this->refines();
+  return ending ? std::nullopt : std::optional<Job>(newest);
 }
 
 bool SceneWorker::Implementation::isFollowed() const
 {
   const std::lock_guard<std::mutex> lock(mutex);
-  return newest.number > global.begun;
+  return newest.number > begun;
 }
 
-/// Offers the scene of a request, which is published, for refinement, if no other request follows.
-void SceneWorker::Implementation::offerRefinement(
-  const Job& job, const std::shared_ptr<const HapticScene>& scene)
+/// Publishes the global scene of a request, and offers it for refinement after that.
+void SceneWorker::Implementation::publish(const Job& job, const std::shared_ptr<const HapticScene>& scene)
 {
-  const SceneRequest& request = *job.request;
-  const bool isWanted =
-    scene && request.refinesNearHand && request.hand && request.publish && request.recipe.useCovariance;
-  const std::lock_guard<std::mutex> lock(mutex);
-  if (isWanted && job.number == newest.number && job.cloud == newest.cloud)
+  if (job.request->publish)
   {
-    mayRefine = true;
+    job.request->publish(scene, job.number);
+  }
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (this->isCurrent(job))
+  {
+    newest.global = scene;
+    newest.globalNumber = job.number;
     changed.notify_all();
   }
 }
@@ -167,7 +164,7 @@ void SceneWorker::Implementation::buildGlobalScenes()
   SceneFilters filters;
   SharedCloud cloud;
   Clock::time_point displayed = Clock::now() - std::chrono::hours(1);
-  while (const std::optional<Job> job = this->next(global))
+  while (const std::optional<Job> job = this->nextBuild())
   {
     const SceneRequest& request = *job->request;
     if (job->cloud != cloud)
@@ -175,7 +172,6 @@ void SceneWorker::Implementation::buildGlobalScenes()
       cloud = job->cloud;
       filters.setCloud(*cloud);
     }
-    this->waitForLocal(*job);
     auto built = std::make_unique<BuiltScene>();
     built->number = job->number;
     const std::shared_ptr<const HapticScene> scene =
@@ -183,13 +179,8 @@ void SceneWorker::Implementation::buildGlobalScenes()
     {
       const std::lock_guard<std::mutex> lock(mutex);
       ++builds;
-      newest.global = this->isCurrent(*job) ? scene : newest.global;
     }
-    if (request.publish)
-    {
-      request.publish(scene, job->number);
-    }
-    this->offerRefinement(*job, scene);
+    this->publish(*job, scene);
     const std::chrono::duration<double> since = Clock::now() - displayed;
     const bool isSlow = request.hasResiduals || request.hasNormals;
     if (this->isFollowed() && (isSlow || since.count() <= kPictureSeconds))
@@ -210,30 +201,27 @@ void SceneWorker::Implementation::buildLocalScenes()
 {
   LocalSceneProvider provider;
   SharedCloud cloud;
-  while (const std::optional<Job> job = this->next(local))
+  Bounds seenHand;
+  int restingLooks = 0;
+  // If the hand rests, the next look comes later, and a window at rest sleeps.
+  while (const auto job = this->nextLook(cloud, restingLooks < kRestingLooks ? kLookPeriod : kRestPeriod))
   {
-    const SceneRequest& request = *job->request;
     if (job->cloud != cloud)
     {
       cloud = job->cloud;
       provider.setCloud(*cloud ? (*cloud)->GetPoints() : nullptr);
     }
+    if (!isRefining) // only this thread changes it
+    {
+      continue;
+    }
+    const SceneRequest& request = *job->request;
     const Bounds hand = request.hand();
-    std::shared_ptr<const HapticScene> scene;
-    if (local.isRefining) // only this thread changes it
+    restingLooks = hand == seenHand ? restingLooks + 1 : 0;
+    seenHand = hand;
+    if (auto scene = provider.refine(hand, job->global, request.recipe.modelToWorkspace))
     {
-      // If the hand rests, the next look comes later, and a window at rest sleeps.
-      restingLooks = hand == seenHand ? restingLooks + 1 : 0;
-      seenHand = hand;
-      scene = provider.refine(hand, job->global);
-    }
-    else
-    {
-      scene = provider.build(request.recipe, hand, job->global);
-    }
-    if (scene && request.publish)
-    {
-      request.publish(std::move(scene), job->number);
+      request.publish(std::move(scene), job->globalNumber);
     }
   }
 }
@@ -251,11 +239,11 @@ SceneWorker::~SceneWorker()
     self.ending = true;
   }
   self.changed.notify_all();
-  for (Builder* builder : { &self.global, &self.local })
+  for (std::thread* thread : { &self.builder, &self.refiner })
   {
-    if (builder->thread.joinable())
+    if (thread->joinable())
     {
-      builder->thread.join();
+      thread->join();
     }
   }
 }
@@ -272,22 +260,20 @@ void SceneWorker::setCloud(vtkPointSet* cloud)
   const std::lock_guard<std::mutex> lock(self.mutex);
   self.newest.cloud = copy;
   self.newest.global.reset();
-  self.mayRefine = false;
   self.finished.reset();
+  self.changed.notify_all();
 }
 
 std::uint64_t SceneWorker::request(SceneRequest request)
 {
   Implementation& self = *implementation_;
-  const bool hasHand = bool(request.hand);
   const std::lock_guard<std::mutex> lock(self.mutex);
-  self.start(self.global, &Implementation::buildGlobalScenes);
-  if (hasHand)
+  self.start(self.builder, &Implementation::buildGlobalScenes);
+  if (request.hand)
   {
-    self.start(self.local, &Implementation::buildLocalScenes);
+    self.start(self.refiner, &Implementation::buildLocalScenes);
   }
   const std::uint64_t number = self.renew(std::move(request));
-  self.local.begun = hasHand ? self.local.begun : number;
   self.changed.notify_all();
   return number;
 }
@@ -300,18 +286,13 @@ std::uint64_t SceneWorker::adopt(SceneRequest request, std::shared_ptr<const Hap
     const std::lock_guard<std::mutex> lock(self.mutex);
     if (request.hand)
     {
-      self.start(self.local, &Implementation::buildLocalScenes);
+      self.start(self.refiner, &Implementation::buildLocalScenes);
     }
-    self.adopted = self.global.begun = self.local.begun = self.renew(std::move(request));
+    self.first = self.begun = self.renew(std::move(request));
     self.finished.reset();
-    self.newest.global = scene;
     job = self.newest;
   }
-  if (job.request->publish)
-  {
-    job.request->publish(scene, job.number);
-  }
-  self.offerRefinement(job, scene);
+  self.publish(job, scene);
   return job.number;
 }
 
@@ -349,10 +330,9 @@ void SceneWorker::cancel()
 {
   Implementation& self = *implementation_;
   std::unique_lock<std::mutex> lock(self.mutex);
-  self.global.begun = self.local.begun = self.newest.number;
-  self.mayRefine = false;
-  self.changed.wait(lock, [&self] { return !self.busy() && !self.local.isRefining; });
-  self.mayRefine = false; // of a build that was in flight
+  self.begun = self.newest.number;
+  self.isCancelled = true;
+  self.changed.wait(lock, [&self] { return !self.busy() && !self.isRefining; });
   self.finished.reset();
 }
 

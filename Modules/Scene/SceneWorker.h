@@ -40,17 +40,16 @@ struct SceneRequest
   /// out a picture with them.
   bool hasResiduals = false;
   bool hasNormals = false;
-  /// Make fine scenes near the hand while the model rests (LocalSceneBuilder), and publish them with this
-  /// request's number. Needs a hand and covariances.
+  /// Make fine scenes near the hand (LocalSceneBuilder). Needs a hand and covariances.
   bool refinesNearHand = false;
-  /// Choose the lattice of the global scene by chooseLattice(); local scenes have that of the recipe.
+  /// Choose the lattice of the global scene by chooseLattice().
   bool findsLattice = false;
   /// Returns a box about the HIP and the contact point, in the workspace; empty: there is no hand. May be
   /// missing. Called in the worker's threads.
   std::function<Bounds()> hand;
-  /// Receives a finished scene and the request's number, in the worker's threads: a local scene, where one is
-  /// made, and the global one, or null where nothing lies in the workspace. It is called before the picture's
-  /// arrays are made. Two calls may meet.
+  /// Receives finished scenes, in the worker's threads: the global one with the request's number, or null
+  /// where nothing lies in the workspace, before the picture's arrays are made; and finer ones with the
+  /// number of the request whose global scene they lie beside, after that. Two calls may meet.
   std::function<void(std::shared_ptr<const HapticScene>, std::uint64_t)> publish;
 };
 
@@ -69,10 +68,9 @@ struct BuiltScene
 
 /// Builds the global scene of one request at a time; of the requests that come meanwhile only the newest is
 /// built. The picture may be left out of a build that is followed by another, but not for longer than
-/// kPictureSeconds. A second thread builds local scenes (LocalSceneProvider) in the same way, and goes first:
-/// new voxels are felt before the whole cloud is resampled. While the model rests, and if the newest request
-/// says so, it looks at the hand 100 times a second, or 25 times at a hand that rests, and makes finer scenes
-/// on its way.
+/// kPictureSeconds. If the newest request says so, a second thread looks at the hand 100 times a second, or
+/// 25 times at a hand that rests, and makes finer scenes on its way (LocalSceneProvider), where the model is
+/// by the newest request: a model that moves is felt finely before the whole cloud is resampled there.
 ///
 /// request(), adopt(), setCloud(), take(), wait() and cancel() belong to one thread (the GUI's), which waits
 /// in the last two only. A data object of VTK belongs to one thread at a time: each thread has a copy of the

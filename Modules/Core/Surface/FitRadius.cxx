@@ -331,7 +331,7 @@ bool isFreeOfNoise(const std::vector<FitScale>& scales)
 }
 
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
-  const Executor& executor, const std::vector<NodeUse>* uses, const FitNeeds& needs, InstructionSet wanted)
+  const Executor& executor, const FitNeeds& needs, InstructionSet wanted)
 {
   // A node takes some ten microseconds, and more where there is noise.
   constexpr std::int64_t kSmallestRange = 16;
@@ -358,7 +358,7 @@ std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCoun
         }
       });
   };
-  choose(needs, [&](std::size_t i) { return !uses || (*uses)[i] != NodeUse::None; });
+  choose(needs, [](std::size_t) { return true; });
   if (needs.finerWhereShaped && isFreeOfNoise(scales))
   {
     choose(FitNeeds::ofBarePoints(), [&](std::size_t i) { return scales[i].left > 0.0; });
@@ -369,10 +369,7 @@ std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCoun
     {
       for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
       {
-        if (!uses || (*uses)[i] == NodeUse::All)
-        {
-          result[i] = vote(pyramid, nodeLevel, scales, i);
-        }
+        result[i] = vote(pyramid, nodeLevel, scales, i);
       }
     });
   return result;

@@ -52,23 +52,11 @@ struct FitScale
 FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double largestCount, double largest,
   FitCells& memory, const FitNeeds& needs = {});
 
-/// Distance between nodes that vote on each other's radii, in finest cells.
-constexpr double kVoteReachInCells = 16.0;
-
-/// Use of a node.
-enum class NodeUse : unsigned char
-{
-  None,
-  Vote, ///< The node has a vote on its neighbours' radii.
-  All,
-};
-
 /// Runs chooseFitRadius at each cell of the field's node level, and takes medians of the neighbours against
-/// outliers, as the radius and gate of the surface fit. @param uses where given, one per node: the result is
-/// valid for All only, and scales are computed for Vote and All only. @param wanted the instructions to use,
-/// as far as this machine has them; the result is the same.
+/// outliers, as the radius and gate of the surface fit. @param wanted the instructions to use, as far as this
+/// machine has them; the result is the same.
 std::vector<LocalScale> fitScales(const CellPyramid& pyramid, double largestCount, double largest,
-  const Executor& executor = {}, const std::vector<NodeUse>* uses = nullptr, const FitNeeds& needs = {},
+  const Executor& executor = {}, const FitNeeds& needs = {},
   InstructionSet wanted = InstructionSet::Automatic);
 
 } // namespace pointhaptics

@@ -14,16 +14,6 @@ constexpr double kSlope = 0.5;
 constexpr int kSlopePasses = 6;
 }
 
-LocalScale scaled(LocalScale scale, double factor)
-{
-  for (double LocalScale::*length : { &LocalScale::radius, &LocalScale::gate, &LocalScale::countRadius,
-         &LocalScale::proxyRadius, &LocalScale::noise })
-  {
-    scale.*length *= factor;
-  }
-  return scale;
-}
-
 int RadiusField::nodeLevel(const CellPyramid& pyramid)
 {
   return std::min(kNodeLevel, pyramid.numberOfCellLevels() - 1);

@@ -28,9 +28,6 @@ constexpr double LocalScale::*kScaleValues[] = { &LocalScale::radius, &LocalScal
   &LocalScale::countRadius, &LocalScale::proxyRadius, &LocalScale::noise, &LocalScale::cubic };
 static_assert(std::size(kScaleValues) == simd::kFieldValues);
 
-/// Scale of a cloud that is @p factor times as large.
-LocalScale scaled(LocalScale scale, double factor);
-
 /// One set of values per cell of a coarse pyramid level, blended between cells by a smooth kernel of compact
 /// support. Radii of fit and proxy are cut so that neighbours differ by at most half their distance. The
 /// values depend on the position only, not on any proxy. Immutable after build(); any number of threads may
@@ -65,8 +62,6 @@ public:
   double reach() const { return reach_; }
   /// Medians of the values, for places far from the cloud.
   const LocalScale& typical() const { return typical_; }
-  /// Takes the typical values of a larger cloud that this one is a part of.
-  void setTypical(const LocalScale& typical) { typical_ = typical; }
 
 private:
   /// Bound between two nodes: the first one's value is at most rise above the other's.

@@ -36,7 +36,7 @@ struct SceneOptions
 {
   /// Use VoxelCovariance in the scenes if the resampler makes it.
   bool useCovariance = true;
-  /// Feel scenes near the hand, while the model rests, that are as fine as the points there, where these tell
+  /// Feel scenes near the hand that are as fine as the points there, where these tell
   /// more than the resampler's voxels. They are made in the background from the cloud itself, in some
   /// milliseconds; until then the global scene is felt. Without useCovariance this has no effect.
   bool refinesNearHand = false;
@@ -80,7 +80,7 @@ public:
   /// requests a new one.
   void invalidate() { isInvalid_ = true; }
   /// Notes that the resampler has another cloud as its input, or the same anew, and that the model is in
-  /// place. poll() requests its scene: the one near the hand comes first. @param findsLattice
+  /// place. poll() requests its scene. @param findsLattice
   /// SceneRequest::findsLattice, until a scene is shown; the resampler gets the dimensions.
   void startCloud(bool findsLattice);
   /// Nothing is felt until another cloud is.

@@ -53,7 +53,7 @@ struct RecordedEvent
   std::uint32_t flag = 0;
   bool isSet = false;         ///< The flag.
   std::uint64_t number = 0;   ///< Of parameters, or of the cloud of a scene; 0: there is no scene.
-  std::uint64_t fallback = 0; ///< Cloud of what is felt where a scene of a part ends; 0: the scene is whole.
+  std::uint64_t fallback = 0; ///< Cloud of what is felt where a local scene ends; 0: the scene is global.
   AffineTransform model;      ///< From the file to the workspace.
 };
 

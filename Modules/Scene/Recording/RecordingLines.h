@@ -105,8 +105,6 @@ private:
 
 /// In the place of the number of ticks, for the last line of a recording.
 constexpr const char* kRecordingEnd = "end";
-/// Words for SceneOrigin::Kind, in their order.
-constexpr std::array<const char*, 3> kSceneOrigins = { "whole", "region", "fine" };
 
 /// A bit of RecordedEvent::flag in the file: "gate on", or where it lasts for a tick alone its name.
 struct RecordedFlag
@@ -151,31 +149,18 @@ inline void describe(keyed::Line& line, ServoStepSettings& step)
 /// False: the kind is none.
 inline bool describe(keyed::Line& line, SceneOrigin& origin)
 {
-  std::string name = kSceneOrigins[std::size_t(origin.kind)];
-  line.value("kind", name);
-  const auto kind = std::find(kSceneOrigins.begin(), kSceneOrigins.end(), name);
-  if (kind == kSceneOrigins.end())
-  {
-    return false;
-  }
-  origin.kind = SceneOrigin::Kind(kind - kSceneOrigins.begin());
+  std::string kind = origin.isLocal() ? "fine" : "whole";
+  line.value("kind", kind);
   line.value("model", origin.modelToWorkspace);
-  if (origin.kind != SceneOrigin::Kind::Whole)
+  if (kind == "fine")
   {
     line.value("beside", origin.globalCloud);
     line.value("hand", origin.hand);
   }
   line.value("covariance", origin.useCovariance);
-  if (origin.kind == SceneOrigin::Kind::Fine)
-  {
-    line.settings(origin.voxels.lattice, "lattice.");
-  }
-  else
-  {
-    line.settings(origin.voxels);
-  }
+  kind == "fine" ? line.settings(origin.voxels.lattice, "lattice.") : line.settings(origin.voxels);
   line.settings(origin.bandwidth, "bandwidth.");
-  return true;
+  return kind == "whole" || origin.isLocal();
 }
 
 /// A scene that there is.

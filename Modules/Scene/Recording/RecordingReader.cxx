@@ -60,7 +60,6 @@ private:
   bool takeMade(std::uint64_t number, const std::string& text);
   bool takeEvent(std::uint64_t tick, const std::string& text);
   bool takeRow(const std::string& text);
-  bool hasFallback(const RecordedEvent& event) const;
 };
 
 bool Reader::take(const std::string& line)
@@ -141,6 +140,12 @@ bool Reader::takeHeader(const std::string& text)
 
 bool Reader::takeMade(std::uint64_t number, const std::string& text)
 {
+  if (text.rfind("kind=region ", 0) == 0)
+  {
+    return this->fail(
+      "this version makes no scenes of regions: replay it with the one that wrote it, or feel "
+      "it anew by --path");
+  }
   keyed::Line line = keyed::Line::from(text);
   auto origin = std::make_shared<SceneOrigin>();
   bool isRead = describe(line, *origin) && line.isFine() && number > 0 && recording.clouds.count(number) == 0;
@@ -149,32 +154,17 @@ bool Reader::takeMade(std::uint64_t number, const std::string& text)
     voxels.representative == Representative::Mean;
   voxels.instructionSet = InstructionSet::Automatic; // the bits are the same
   voxels.computeVoxelIndex = voxels.keepOriginalPointIds = false;
-  if (isRead && origin->kind != SceneOrigin::Kind::Whole)
+  if (isRead && origin->isLocal())
   {
     const auto global = recording.clouds.find(origin->globalCloud);
-    const bool isAlone = origin->globalCloud == 0 && origin->kind == SceneOrigin::Kind::Region;
-    isRead = !origin->hand.empty() &&
-      (isAlone || (global != recording.clouds.end() && global->second->kind == SceneOrigin::Kind::Whole));
-    origin->global = isRead && !isAlone ? global->second : nullptr;
+    isRead = !origin->hand.empty() && global != recording.clouds.end() && !global->second->isLocal();
+    origin->global = isRead ? global->second : nullptr;
   }
   const auto& bandwidth = origin->bandwidth;
   isRead = isRead &&
     (!bandwidth || (bandwidth->rule <= BandwidthRule::SheatherJones && bandwidth->check() == Status::Ok));
   recording.clouds[number] = origin;
   return this->failUnless(isRead, line.text(), "no such scene");
-}
-
-/// True if the scene of @p event is there and ends as its kind does: a part has a fallback, unless it was
-/// made before there was a whole.
-bool Reader::hasFallback(const RecordedEvent& event) const
-{
-  const auto cloud = recording.clouds.find(event.number);
-  const auto fallback = recording.clouds.find(event.fallback);
-  const auto isWhole = [](const SceneOrigin& origin) { return origin.kind == SceneOrigin::Kind::Whole; };
-  return cloud != recording.clouds.end() &&
-    (event.fallback == 0
-        ? isWhole(*cloud->second) || cloud->second->globalCloud == 0
-        : !isWhole(*cloud->second) && fallback != recording.clouds.end() && isWhole(*fallback->second));
 }
 
 /// "scene", "parameters" or a flag, with what it says.
@@ -190,7 +180,9 @@ bool Reader::takeEvent(std::uint64_t tick, const std::string& text)
   {
     keyed::Line line = keyed::Line::from(rest);
     describe(line, event);
-    isRead = isRead && line.isFine() && this->hasFallback(event);
+    const auto cloud = recording.clouds.find(event.number);
+    isRead = isRead && line.isFine() && cloud != recording.clouds.end() &&
+      cloud->second->globalCloud == event.fallback;
   }
   else if (name == "parameters")
   {

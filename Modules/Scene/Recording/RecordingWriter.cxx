@@ -143,7 +143,7 @@ void RecordingWriter::addCloud(std::uint64_t number, const std::shared_ptr<const
   }
   else if (clouds_.insert(number).second)
   {
-    if (origin->globalCloud != 0)
+    if (origin->isLocal())
     {
       this->addCloud(origin->globalCloud, origin->global);
     }
@@ -161,12 +161,8 @@ void RecordingWriter::addScene(const ServoSample& sample)
   const PublishedScene* known = inUse(published_.scenes, sample.scene);
   const PublishedScene scene = known ? *known : PublishedScene();
   this->addCloud(scene.cloud, scene.origin);
-  if (scene.fallbackCloud != 0)
-  {
-    this->addCloud(scene.fallbackCloud, scene.fallbackOrigin);
-  }
   const RecordedEvent event{ sample.tick, RecordedEvent::Kind::Scene, 0, false, scene.cloud,
-    scene.fallbackCloud, scene.modelToWorkspace };
+    scene.origin ? scene.origin->globalCloud : 0, scene.modelToWorkspace };
   this->addEvent(sample.tick, lineOf("scene", event));
 }
 

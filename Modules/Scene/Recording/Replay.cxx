@@ -62,12 +62,11 @@ std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number,
     return nullptr;
   }
   const SceneOrigin& how = *origin->second;
-  const bool isPart = how.kind != SceneOrigin::Kind::Whole;
-  const auto global = isPart && how.globalCloud != 0 ? this->cloudOf(how.globalCloud, problem) : nullptr;
+  const auto global = how.isLocal() ? this->cloudOf(how.globalCloud, problem) : nullptr;
   BuiltScene built;
-  const auto made = !isPart          ? whole_.makeScene(how, false, built)
-    : global || how.globalCloud == 0 ? local_.make(how, global)
-                                     : nullptr;
+  const auto made = !how.isLocal() ? whole_.makeScene(how, false, built)
+    : global                       ? local_.make(how, global)
+                                   : nullptr;
   problem = built.problem.empty() ? problem : built.problem;
   return clouds_[number] = made;
 }
@@ -75,12 +74,9 @@ std::shared_ptr<const HapticScene> RecordedScenes::cloudOf(std::uint64_t number,
 /// Forgets the scenes that @p event does not use: they would be made again.
 void RecordedScenes::keepThoseOf(const RecordedEvent& event)
 {
-  const auto origin = recording_.clouds.find(event.number);
-  const std::uint64_t global = origin == recording_.clouds.end() ? 0 : origin->second->globalCloud;
   for (auto cloud = clouds_.begin(); cloud != clouds_.end();)
   {
-    const bool isUsed =
-      cloud->first == event.number || cloud->first == event.fallback || cloud->first == global;
+    const bool isUsed = cloud->first == event.number || cloud->first == event.fallback;
     cloud = isUsed ? std::next(cloud) : clouds_.erase(cloud);
   }
 }
@@ -97,11 +93,6 @@ bool RecordedScenes::make(
   Status status = Status::Ok;
   std::string problem;
   scene = this->cloudOf(event.number, problem);
-  if (scene && event.fallback != 0 && recording_.clouds.at(event.number)->globalCloud != event.fallback)
-  {
-    const std::shared_ptr<const HapticScene> global = this->cloudOf(event.fallback, problem);
-    scene = global ? scene->withFallback(*global, status) : nullptr;
-  }
   if (scene && !(scene->modelToWorkspace() == event.model))
   {
     scene = scene->moved(event.model, status);

@@ -116,7 +116,7 @@ void ViewWindow::show(LoadedCloud cloud, const FileLoad& load)
   style_->GetStatus().setEmptyCause(this->hiddenWords());
   this->setTitle(scene_.title());
   this->showSliderValues();
-  style_->GetScenes().poll(); // what is near the hand, before the picture
+  style_->GetScenes().poll(); // its scene is made while the picture is drawn
   this->findIdeal();
   profile_.follow();
 }

@@ -85,16 +85,6 @@ protected:
     std::filesystem::remove(file_ + ".part");
   }
 
-  /// For the surroundings of a hand.
-  static SceneOrigin localRecipe()
-  {
-    SceneOrigin recipe;
-    recipe.voxels = voxels();
-    recipe.voxels.outputPointsPrecision = PointsPrecision::Double;
-    recipe.bandwidth.emplace();
-    return recipe;
-  }
-
   /// Until the loop has answered @p ticks more: on a busy machine it leaves some out.
   void recordFor(std::size_t ticks)
   {
@@ -222,50 +212,40 @@ TEST_F(RecordingTest, ARunWithMotionsOfTheModelAndOtherSettingsIsFeltAgain)
   this->replay(200);
 }
 
-TEST_F(RecordingTest, ScenesOfPartsAreMadeAgain)
+TEST_F(RecordingTest, FinerScenesAreMadeAgain)
 {
+  cloud_ = trial::shapeCloud(Shape::Idol, 150000);
+  whole_ = wholeScene(cloud_);
+  header_.cloud.points = cloud_->GetNumberOfPoints();
+  header_.cloud.checksum = checksumOf(cloud_);
   LocalSceneProvider provider;
   provider.setCloud(cloud_->GetPoints());
-  SceneOrigin recipe = localRecipe();
+  // Moved, before the whole cloud is resampled there.
+  const AffineTransform place = AffineTransform::scaling({ 1.01, 1.01, 1.01 });
+  std::shared_ptr<const HapticScene> finer;
+  SurfacePoint surface;
+  for (vtkIdType i = 0; i < cloud_->GetNumberOfPoints() && !finer; i += 500)
+  {
+    Vec3 point;
+    cloud_->GetPoint(i, &point.x);
+    surface = closestPoint(Shape::Idol, point);
+    Bounds hand;
+    hand.include(place.apply(surface.point));
+    finer = provider.refine(hand, whole_, place);
+  }
+  ASSERT_TRUE(finer && finer->fallback());
+  port_.path = [=](double seconds)
+  { return place.apply(surface.point) + 0.001 * std::cos(40.0 * seconds) * surface.normal; };
   this->start();
   this->recordFor(100);
-  Bounds hand;
-  hand.include(loop_.latest().state.hip);
-  // Moved as the surroundings of the hand are, before the whole cloud is.
-  recipe.modelToWorkspace = AffineTransform::scaling({ 1.01, 1.01, 1.01 });
-  const std::shared_ptr<const HapticScene> region = provider.build(recipe, hand, whole_);
-  ASSERT_TRUE(region && region->fallback());
-  loop_.publishScene(region);
-  this->recordFor(200);
+  loop_.publishScene(finer);
+  this->recordFor(300);
   Status status = Status::Ok;
-  const auto moved = whole_->moved(region->modelToWorkspace(), status);
-  loop_.publishScene(region->withFallback(*moved, status));
-  this->recordFor(200);
+  loop_.publishScene(finer->moved(AffineTransform(), status));
+  this->recordFor(100);
   this->stop();
   this->replay(100);
-  EXPECT_NE(this->text().find("kind=region"), std::string::npos);
-}
-
-TEST_F(RecordingTest, AScenePartThatWasAloneIsMadeAgain)
-{
-  LocalSceneProvider provider;
-  provider.setCloud(cloud_->GetPoints());
-  Bounds hand;
-  hand.include(handAt(0));
-  const std::shared_ptr<const HapticScene> whole = whole_;
-  whole_ = provider.build(localRecipe(), hand, nullptr);
-  ASSERT_TRUE(whole_ && whole_->isLocal() && !whole_->fallback());
-  this->start();
-  this->recordFor(250);
-  Status status = Status::Ok;
-  loop_.publishScene(whole_->withFallback(*whole, status));
-  this->recordFor(150);
-  loop_.publishScene(whole);
-  this->recordFor(200);
-  this->stop();
-  this->replay(100);
-  EXPECT_NE(this->text().find("kind=region"), std::string::npos);
-  EXPECT_NE(this->text().find("beside=0 "), std::string::npos);
+  EXPECT_NE(this->text().find("kind=fine"), std::string::npos);
 }
 
 TEST_F(RecordingTest, AFaultyDeviceIsReplayedToo)
@@ -408,6 +388,7 @@ TEST_F(RecordingTest, WhatIsNoRecordingIsRefusedInOneLine)
   this->refuse(with("scene of=", "scene of=77"), "no such event");
   this->refuse(with(": parameters 2", ": parameters 77"), "no such event");
   this->refuse(with("kind=whole", "kind=half"), "no such scene");
+  this->refuse(with("kind=whole", "kind=region"), "feel it anew by --path");
   this->refuse(with("model=1,0", "model=0,0"), "no such scene");
   this->refuse(with("contact.stiffness=800", "contact.stiffness=-1"), "no such parameters");
   this->refuse(with("bandwidth.rule=0", "bandwidth.rule=9"), "no such scene");

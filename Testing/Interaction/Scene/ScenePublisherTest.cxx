@@ -123,84 +123,31 @@ TEST_F(ScenePublisherTest, ACloudThatIsGoneIsNeitherMovedNorPublished)
   EXPECT_EQ(felt_.size(), 2u);
 }
 
-/// As sceneAt(), of the part about the origin.
-std::shared_ptr<const HapticScene> partAt(
-  const AffineTransform& modelToWorkspace, const std::shared_ptr<const HapticScene>& whole)
+TEST_F(ScenePublisherTest, AFinerSceneIsFeltAfterTheGlobalOneBesideIt)
 {
-  Lattice lattice;
-  lattice.origin = { -0.05, -0.05, -0.05 };
-  lattice.spacing = { 0.001, 0.001, 0.001 };
-  lattice.dimensions = { 100, 100, 100 };
-  Bounds hand;
-  hand.include({ 0.0, 0.0, 0.0 });
-  HapticSceneInput input = squareAt(modelToWorkspace);
-  input.region =
-    whole ? LocalRegion::about(hand, whole, modelToWorkspace, lattice) : LocalRegion::alone(hand, lattice);
-  EXPECT_TRUE(input.region);
+  const std::uint64_t cloud = publisher_.cloud();
+  const auto whole = sceneAt(shiftBy(0.0));
+  publisher_.publish(whole, cloud, 1);
+  HapticSceneInput input = squareAt(shiftBy(0.0));
+  input.local.emplace();
+  input.local->covered = { { -0.003, -0.003, -0.003 }, { 0.003, 0.003, 0.003 } };
+  input.local->global = whole;
   Status status = Status::Ok;
-  auto scene = HapticScene::create(std::move(input), status);
-  EXPECT_EQ(status, Status::Ok);
-  return scene;
-}
-
-TEST_F(ScenePublisherTest, APartIsFeltUntilTheWholeOfTheSameRequestIsThere)
-{
-  const std::uint64_t cloud = publisher_.cloud();
-  const auto first = sceneAt(shiftBy(0.0));
-  publisher_.publish(first, cloud, 1);
-  const auto part = partAt(shiftBy(0.002), first);
-  publisher_.publish(part, cloud, 2);
-  EXPECT_EQ(felt_.back(), part);
-  const auto whole = sceneAt(shiftBy(0.002));
-  publisher_.publish(whole, cloud, 2);
-  EXPECT_EQ(felt_.back(), whole);
-  publisher_.publish(part, cloud, 2);
-  EXPECT_EQ(felt_.back(), whole);
-}
-
-TEST_F(ScenePublisherTest, APartIsFeltBeforeThereIsAWhole)
-{
-  const std::uint64_t cloud = publisher_.cloud();
-  const auto part = partAt(shiftBy(0.0), nullptr);
-  ASSERT_NE(part, nullptr);
+  const auto part = HapticScene::create(std::move(input), status);
   publisher_.publish(part, cloud, 1);
   EXPECT_EQ(felt_.back(), part);
-  const auto later = partAt(shiftBy(0.001), nullptr);
-  publisher_.publish(later, cloud, 2);
-  EXPECT_EQ(felt_.back(), later);
-  const auto first = sceneAt(shiftBy(0.0));
-  publisher_.publish(first, cloud, 1);
-  EXPECT_EQ(felt_.back()->cloudNumber(), later->cloudNumber());
-  ASSERT_NE(felt_.back()->fallback(), nullptr) << "an earlier whole is felt beyond it";
-  EXPECT_EQ(felt_.back()->fallback()->cloudNumber(), first->cloudNumber());
-  const auto whole = sceneAt(shiftBy(0.001));
-  publisher_.publish(whole, cloud, 2);
-  EXPECT_EQ(felt_.back(), whole);
-  publisher_.publish(later, cloud, 2);
-  EXPECT_EQ(felt_.back(), whole);
-}
-
-TEST_F(ScenePublisherTest, AnEarlierWholeIsFeltBeyondALaterPart)
-{
-  const std::uint64_t cloud = publisher_.cloud();
-  const auto first = sceneAt(shiftBy(0.0));
-  publisher_.publish(first, cloud, 1);
-  publisher_.move(shiftBy(0.003));
-  const auto part = partAt(shiftBy(0.003), first);
-  publisher_.publish(part, cloud, 3);
-  const auto second = sceneAt(shiftBy(0.002));
-  publisher_.publish(second, cloud, 2);
-  EXPECT_EQ(felt_.back()->cloudNumber(), part->cloudNumber());
-  ASSERT_NE(felt_.back()->fallback(), nullptr);
-  EXPECT_EQ(felt_.back()->fallback()->cloudNumber(), second->cloudNumber());
-  EXPECT_EQ(felt_.back()->fallback()->modelToWorkspace(), shiftBy(0.003));
   // Both go where the model goes.
   publisher_.move(shiftBy(0.004));
+  EXPECT_EQ(felt_.back()->cloudNumber(), part->cloudNumber());
   EXPECT_EQ(felt_.back()->modelToWorkspace(), shiftBy(0.004));
   EXPECT_EQ(felt_.back()->fallback()->modelToWorkspace(), shiftBy(0.004));
-  const std::size_t published = felt_.size();
-  publisher_.publish(partAt(shiftBy(0.002), first), cloud, 2);
-  EXPECT_EQ(felt_.size(), published) << "overtaken";
+  publisher_.publish(part, cloud, 1);
+  EXPECT_EQ(felt_.back()->modelToWorkspace(), shiftBy(0.004));
+  const auto later = sceneAt(shiftBy(0.004));
+  publisher_.publish(later, cloud, 2);
+  EXPECT_EQ(felt_.back(), later);
+  publisher_.publish(part, cloud, 1);
+  EXPECT_EQ(felt_.back(), later) << "overtaken";
 }
 
 } // namespace

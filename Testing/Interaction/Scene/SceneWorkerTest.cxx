@@ -400,7 +400,7 @@ class StillPort : public HapticPort
 public:
   Status read(double, HandState& state) noexcept override
   {
-    state.position = { 0.0, 0.0, 0.01 };
+    state.position = { 0.0, 0.0, 0.003 };
     return Status::Ok;
   }
   Status write(double, const Vec3&) noexcept override { return Status::Ok; }
@@ -415,8 +415,7 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
   settings.realtimePriority = false;
   ASSERT_EQ(loop.start(port, {}, settings), Status::Ok);
   std::vector<ServoSample> samples;
-  worker_.setCloud(makeCloud(0.00025));
-  resampler_->SetDimensions(300, 300, 300);
+  worker_.setCloud(makeCloud(0.0002));
   ScenePublisher publisher;
   publisher.setSink(
     [&loop](std::shared_ptr<const HapticScene> scene) { loop.publishScene(std::move(scene)); });
@@ -460,7 +459,7 @@ TEST_F(SceneWorkerTest, PublishesWhileTheServoLoopFeelsAndTheWindowLooks)
   }
   loop.stop();
   EXPECT_GE(shown, 8);
-  EXPECT_GE(parts, 4);
+  EXPECT_GE(parts, 1);
   EXPECT_GT(sum, 0.0);
 }
 

@@ -263,10 +263,8 @@ TEST(HapticScene, SparsePointsGetOthersBetweenThemForTheBall)
   EXPECT_EQ(scene->numberOfPoints(), input.points.size());
   EXPECT_GT(scene->contactPyramid().level(0).cells.size(), 3 * scene->numberOfPoints());
   EXPECT_LT(scene->contactCell(), 0.6 * scene->cellSize());
-  EXPECT_GT(scene->sparseSpacing(), trial::kVoxel);
   // No voxels, no size to be sparse against.
   EXPECT_EQ(&raw->contactPyramid(), &raw->pyramid());
-  EXPECT_EQ(raw->sparseSpacing(), 0.0);
 }
 
 TEST(HapticScene, DenseAndRandomPointsDecideAboutContactThemselves)

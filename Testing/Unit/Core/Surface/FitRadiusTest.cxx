@@ -146,8 +146,8 @@ TEST(FitScales, AreTheSameBitsHoweverTheNodesAreShared)
   const CellPyramid pyramid = sphere(50000, 20e-6, 6);
   for (const FitNeeds& needs : { FitNeeds(), FitNeeds::ofFineCells() })
   {
-    const std::vector<LocalScale> together = fitScales(pyramid, 8e-3, 8e-3, {}, nullptr, needs);
-    const std::vector<LocalScale> alone = fitScales(pyramid, 8e-3, 8e-3, OneByOne(), nullptr, needs);
+    const std::vector<LocalScale> together = fitScales(pyramid, 8e-3, 8e-3, {}, needs);
+    const std::vector<LocalScale> alone = fitScales(pyramid, 8e-3, 8e-3, OneByOne(), needs);
     ASSERT_EQ(alone.size(), together.size());
     int differ = 0;
     for (std::size_t i = 0; i < alone.size(); ++i)
@@ -177,7 +177,7 @@ TEST(FitScales, AreSmallWhereBarePointsHaveShapeAndNoNoise)
     FitNeeds needs;
     needs.finerWhereShaped = finer;
     std::vector<double> radii;
-    for (const LocalScale& scale : fitScales(pyramid, 8e-3, 8e-3, {}, nullptr, needs))
+    for (const LocalScale& scale : fitScales(pyramid, 8e-3, 8e-3, {}, needs))
     {
       radii.push_back(scale.radius);
     }
