@@ -13,8 +13,3 @@ void vtkPVHapticFeel::SetVoxelSize(double size)
   this->GetResampler()->SetSettings(settings);
   this->SetRefineNearHand(!(size > 0.0));
 }
-
-void vtkPVHapticFeel::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

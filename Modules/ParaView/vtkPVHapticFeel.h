@@ -19,8 +19,6 @@ class POINTHAPTICSPARAVIEW_EXPORT vtkPVHapticFeel : public vtkHapticFeel
 public:
   static vtkPVHapticFeel* New();
   vtkTypeMacro(vtkPVHapticFeel, vtkHapticFeel);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
   /**
    * Edge of the voxels in metres, felt everywhere, as --voxel of the program; 0: 300 on each axis, finer near
    * the hand where that tells more. Default: 0.

@@ -33,9 +33,9 @@ inline SurfacePoint footOn(const Vec3& position, const Vec3& point, const Vec3& 
   return { point, normal, inside ? -distance : distance };
 }
 
-inline SurfacePoint planeFoot(const Vec3& p, double half)
+inline SurfacePoint planeFoot(const Vec3& p)
 {
-  const Vec3 foot{ std::clamp(p.x, -half, half), std::clamp(p.y, -half, half), 0.0 };
+  const Vec3 foot{ std::clamp(p.x, -kPlaneHalf, kPlaneHalf), std::clamp(p.y, -kPlaneHalf, kPlaneHalf), 0.0 };
   return footOn(p, foot, { 0.0, 0.0, 1.0 }, p.z < 0.0);
 }
 
@@ -202,7 +202,7 @@ inline SurfacePoint holeFoot(const Vec3& p)
   const double radial = std::hypot(p.x, p.y);
   if (radial >= kHoleRadius)
   {
-    return planeFoot(p, kPlaneHalf);
+    return planeFoot(p);
   }
   const Vec3 outwards = radial > 0.0 ? Vec3{ p.x / radial, p.y / radial, 0.0 } : Vec3{ 1.0, 0.0, 0.0 };
   return footOn(p, kHoleRadius * outwards, { 0.0, 0.0, 1.0 }, p.z < 0.0);

@@ -19,9 +19,6 @@ namespace
 using detail::Jet;
 using detail::PortableRandom;
 
-constexpr const char* kNames[kNumberOfShapes] = { "plane", "sphere", "torus", "ellipsoid", "saddle", "box",
-  "edge", "sheet", "hole", "density-step", "idol" };
-
 /// Density where it is highest over where it is lowest.
 constexpr double kDensityRatio = 16.0;
 
@@ -222,10 +219,6 @@ Sample drawIdol(PortableRandom& random)
   }
 }
 
-using Draw = Sample (*)(PortableRandom&);
-constexpr Draw kDraw[kNumberOfShapes] = { drawPlane, drawSphere, drawTorus, drawEllipsoid, drawSaddle,
-  drawBox, drawEdge, drawSheet, drawHole, drawDensityStep, drawIdol };
-
 /// Newton on half the squared distance over the unit sphere, from @p q downhill; the Hessian is shifted where
 /// it is not positive and the step halved where the distance does not fall.
 Vec3 idolDescend(const Vec3& p, Vec3 q)
@@ -360,22 +353,32 @@ SurfacePoint idolFoot(const Vec3& p)
   return detail::footOn(p, patch.point(), normal, dot(p - patch.point(), normal) < 0.0);
 }
 
+/// In the order of Shape.
+constexpr struct
+{
+  const char* name;
+  Sample (*draw)(PortableRandom&);
+  SurfacePoint (*foot)(const Vec3&);
+} kShapes[kNumberOfShapes] = { { "plane", drawPlane, detail::planeFoot },
+  { "sphere", drawSphere, detail::sphereFoot }, { "torus", drawTorus, detail::torusFoot },
+  { "ellipsoid", drawEllipsoid, detail::ellipsoidFoot }, { "saddle", drawSaddle, detail::saddleFoot },
+  { "box", drawBox, detail::boxFoot }, { "edge", drawEdge, detail::edgeFoot },
+  { "sheet", drawSheet, detail::sheetFoot }, { "hole", drawHole, detail::holeFoot },
+  { "density-step", drawDensityStep, detail::planeFoot }, { "idol", drawIdol, idolFoot } };
+
 } // namespace
 
 const char* shapeName(Shape shape) noexcept
 {
-  return kNames[static_cast<int>(shape)];
+  return kShapes[static_cast<int>(shape)].name;
 }
 
 bool shapeFromName(const std::string& name, Shape& shape) noexcept
 {
-  const auto found = std::find(std::begin(kNames), std::end(kNames), name);
-  if (found == std::end(kNames))
-  {
-    return false;
-  }
-  shape = static_cast<Shape>(found - std::begin(kNames));
-  return true;
+  const auto* const found = std::find_if(
+    std::begin(kShapes), std::end(kShapes), [&name](const auto& each) { return name == each.name; });
+  shape = found == std::end(kShapes) ? shape : static_cast<Shape>(found - std::begin(kShapes));
+  return found != std::end(kShapes);
 }
 
 Status generateShape(Shape shape, std::int64_t count, std::uint64_t seed, double noise,
@@ -396,10 +399,9 @@ Status generateShape(Shape shape, std::int64_t count, std::uint64_t seed, double
     normals->resize(points.size());
   }
   PortableRandom random(seed);
-  const Draw draw = kDraw[static_cast<int>(shape)];
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Sample sample = draw(random);
+    const Sample sample = kShapes[static_cast<int>(shape)].draw(random);
     points[i] = noise > 0.0 ? sample.point + (noise * random.gaussian()) * sample.normal : sample.point;
     if (normals)
     {
@@ -411,31 +413,7 @@ Status generateShape(Shape shape, std::int64_t count, std::uint64_t seed, double
 
 SurfacePoint closestPoint(Shape shape, const Vec3& position)
 {
-  switch (shape)
-  {
-    case Shape::Plane:
-    case Shape::DensityStep:
-      return detail::planeFoot(position, detail::kPlaneHalf);
-    case Shape::Sphere:
-      return detail::sphereFoot(position);
-    case Shape::Torus:
-      return detail::torusFoot(position);
-    case Shape::Ellipsoid:
-      return detail::ellipsoidFoot(position);
-    case Shape::Saddle:
-      return detail::saddleFoot(position);
-    case Shape::Box:
-      return detail::boxFoot(position);
-    case Shape::Edge:
-      return detail::edgeFoot(position);
-    case Shape::Sheet:
-      return detail::sheetFoot(position);
-    case Shape::Hole:
-      return detail::holeFoot(position);
-    case Shape::Idol:
-      return idolFoot(position);
-  }
-  return {};
+  return kShapes[static_cast<int>(shape)].foot(position);
 }
 
 } // namespace pointhaptics

@@ -221,7 +221,7 @@ TEST(NoAllocation, InAHundredThousandTicksOfTheFalconsDriver)
   trial::FalconModel& model = wire.model;
   model.runs = true;
   wire.onCommand = [](trial::FalconModel& m) { m.move(kTick); };
-  FalconDevice device(FalconSettings(), std::make_unique<trial::WiredBus<countedcalls::Pause>>(wire));
+  FalconDevice device(FalconSettings(), trial::wiredBus<countedcalls::Pause>(wire));
   ASSERT_EQ(device.open(), Status::Ok) << device.message();
   long calls = -1;
   const char* function = nullptr;

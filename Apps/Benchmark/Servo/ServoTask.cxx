@@ -113,8 +113,9 @@ std::unique_ptr<HapticDevice> makeDevice(const Setting& setting)
       time += 1e-3;
       moved.hand.position = handAt(time) + falcon::kCenter;
     };
-    return std::make_unique<FalconDevice>(
-      FalconSettings(), std::make_unique<trial::WiredBus<>>(std::move(wire)));
+    return std::make_unique<FalconDevice>(FalconSettings(),
+      [wire, open = trial::wiredBus(*wire)](Status& status, std::string& message)
+      { return open(status, message); });
   }
   auto hand = std::make_unique<SimulatedDevice>();
   HipPath path;

@@ -42,7 +42,7 @@ struct FalconDevice::Implementation
   }
 
   const FalconSettings settings;
-  std::unique_ptr<FtdiBus> bus;
+  FtdiBus bus;
   std::unique_ptr<FtdiLink> link; ///< Belongs to the owner.
   FalconProtocol protocol;        ///< Belongs to the owner.
   std::atomic<int> owner{ kSupervisor };
@@ -79,7 +79,7 @@ struct FalconDevice::Implementation
 Status FalconDevice::Implementation::start(std::string& text)
 {
   Status status = Status::Ok;
-  link = bus->open(status, text);
+  link = bus(status, text);
   if (!link)
   {
     return status;
@@ -132,7 +132,7 @@ FalconDevice::FalconDevice(const FalconSettings& settings)
 {
 }
 
-FalconDevice::FalconDevice(const FalconSettings& settings, std::unique_ptr<FtdiBus> bus)
+FalconDevice::FalconDevice(const FalconSettings& settings, FtdiBus bus)
   : implementation_(std::make_unique<Implementation>(settings))
 {
   implementation_->bus = std::move(bus);

@@ -75,7 +75,7 @@ public:
   /// Uses the libusb of this machine.
   explicit FalconDevice(const FalconSettings& settings = {});
   /// Uses another bus, for tests.
-  FalconDevice(const FalconSettings& settings, std::unique_ptr<FtdiBus> bus);
+  FalconDevice(const FalconSettings& settings, FtdiBus bus);
   ~FalconDevice() override; ///< Closes.
   FalconDevice(const FalconDevice&) = delete;
   FalconDevice& operator=(const FalconDevice&) = delete;
@@ -111,6 +111,6 @@ private:
 };
 
 /// The libusb bus; null where the package was built without libusb.
-std::unique_ptr<FtdiBus> makeUsbFtdiBus();
+FtdiBus makeUsbFtdiBus();
 
 } // namespace pointhaptics

@@ -5,6 +5,7 @@
 #include "Core/Base/Status.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -39,14 +40,8 @@ public:
   virtual Status poll(std::uint8_t* bytes, int capacity, int& count, double waitSeconds) noexcept = 0;
 };
 
-/// Finds and opens devices.
-class FtdiBus
-{
-public:
-  virtual ~FtdiBus() = default;
-  /// The first Falcon that can be opened. Null with DeviceNotFound, DeviceNotPermitted, DeviceLost; @p
-  /// message then says what happened and the cure.
-  virtual std::unique_ptr<FtdiLink> open(Status& status, std::string& message) = 0;
-};
+/// Opens the first Falcon that can be opened. Null with DeviceNotFound, DeviceNotPermitted, DeviceLost; @p
+/// message then says what happened and the cure.
+using FtdiBus = std::function<std::unique_ptr<FtdiLink>(Status& status, std::string& message)>;
 
 } // namespace pointhaptics

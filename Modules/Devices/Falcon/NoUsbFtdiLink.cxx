@@ -5,7 +5,7 @@
 namespace pointhaptics
 {
 
-std::unique_ptr<FtdiBus> makeUsbFtdiBus()
+FtdiBus makeUsbFtdiBus()
 {
   return nullptr;
 }

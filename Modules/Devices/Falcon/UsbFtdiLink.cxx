@@ -298,69 +298,65 @@ std::string refusal(const std::string& where, int error)
   }
 }
 
-class UsbFtdiBus : public FtdiBus
+libusb_device_handle* claim(libusb_device* device, Status& status, std::string& message)
 {
-public:
-  std::unique_ptr<FtdiLink> open(Status& status, std::string& message) override
+  libusb_device_handle* handle = nullptr;
+  int error = libusb_open(device, &handle);
+  if (error == LIBUSB_SUCCESS)
   {
-    libusb_context* context = nullptr;
-    if (const int error = libusb_init(&context); error != LIBUSB_SUCCESS)
-    {
-      status = Status::DeviceNotFound;
-      message = "falcon: " + systemProblem(error);
-      return nullptr;
-    }
-    status = Status::DeviceNotFound;
-    message = "falcon: none is plugged in (USB 0403:cb48); check the cable and its power supply";
-    libusb_device_handle* handle = nullptr;
-    forEachFalcon(
-      context, [&](libusb_device* device) { handle = handle ? handle : claim(device, status, message); });
-    if (!handle)
-    {
-      libusb_exit(context);
-      return nullptr;
-    }
-    auto link = std::make_unique<UsbFtdiLink>(context, handle);
-    if (!link->complete())
-    {
-      status = Status::DeviceLost;
-      message = "falcon: not enough memory for its transfers; close other programs";
-      return nullptr;
-    }
-    return link;
+    // The call fails where the system knows no drivers to detach; claiming then reports it.
+    static_cast<void>(libusb_set_auto_detach_kernel_driver(handle, 1));
+    error = libusb_claim_interface(handle, kInterface);
   }
-
-private:
-  static libusb_device_handle* claim(libusb_device* device, Status& status, std::string& message)
+  if (error == LIBUSB_SUCCESS)
   {
-    libusb_device_handle* handle = nullptr;
-    int error = libusb_open(device, &handle);
-    if (error == LIBUSB_SUCCESS)
-    {
-      // The call fails where the system knows no drivers to detach; claiming then reports it.
-      static_cast<void>(libusb_set_auto_detach_kernel_driver(handle, 1));
-      error = libusb_claim_interface(handle, kInterface);
-    }
-    if (error == LIBUSB_SUCCESS)
-    {
-      status = Status::Ok;
-      message.clear();
-      return handle;
-    }
-    if (handle)
-    {
-      libusb_close(handle);
-    }
-    status = error == LIBUSB_ERROR_ACCESS ? Status::DeviceNotPermitted : Status::DeviceLost;
-    message = refusal(place(device), error);
-    return nullptr;
+    status = Status::Ok;
+    message.clear();
+    return handle;
   }
-};
+  if (handle)
+  {
+    libusb_close(handle);
+  }
+  status = error == LIBUSB_ERROR_ACCESS ? Status::DeviceNotPermitted : Status::DeviceLost;
+  message = refusal(place(device), error);
+  return nullptr;
 }
 
-std::unique_ptr<FtdiBus> makeUsbFtdiBus()
+std::unique_ptr<FtdiLink> openFalcon(Status& status, std::string& message)
 {
-  return std::make_unique<UsbFtdiBus>();
+  libusb_context* context = nullptr;
+  if (const int error = libusb_init(&context); error != LIBUSB_SUCCESS)
+  {
+    status = Status::DeviceNotFound;
+    message = "falcon: " + systemProblem(error);
+    return nullptr;
+  }
+  status = Status::DeviceNotFound;
+  message = "falcon: none is plugged in (USB 0403:cb48); check the cable and its power supply";
+  libusb_device_handle* handle = nullptr;
+  forEachFalcon(
+    context, [&](libusb_device* device) { handle = handle ? handle : claim(device, status, message); });
+  if (!handle)
+  {
+    libusb_exit(context);
+    return nullptr;
+  }
+  auto link = std::make_unique<UsbFtdiLink>(context, handle);
+  if (!link->complete())
+  {
+    status = Status::DeviceLost;
+    message = "falcon: not enough memory for its transfers; close other programs";
+    return nullptr;
+  }
+  return link;
+}
+
+}
+
+FtdiBus makeUsbFtdiBus()
+{
+  return openFalcon;
 }
 
 std::vector<ListedDevice> findUsbFalcons(std::string& problem)

@@ -62,7 +62,7 @@ public:
     wire.model.expectedFirmware = madeUpFirmware();
     settings.firmwareFile = settings.firmwareFile.empty() ? file.path() : settings.firmwareFile;
     settings.retrySeconds = 0.002;
-    device = std::make_unique<FalconDevice>(settings, std::make_unique<WiredBus<>>(wire));
+    device = std::make_unique<FalconDevice>(settings, wiredBus(wire));
   }
 
   /// One tick: read, @p force of the last position, write, a millisecond of the hand's life. The force is

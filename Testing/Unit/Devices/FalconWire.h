@@ -112,30 +112,18 @@ private:
   FalconOnAWire& wire_;
 };
 
+/// @p wire outlives the bus.
 template <typename Guard = NoGuard>
-class WiredBus : public FtdiBus
+FtdiBus wiredBus(FalconOnAWire& wire)
 {
-public:
-  explicit WiredBus(std::shared_ptr<FalconOnAWire> wire)
-    : wire_(std::move(wire))
+  return [&wire](Status& status, std::string& message) -> std::unique_ptr<FtdiLink>
   {
-  }
-  /// @param wire outlives the bus.
-  explicit WiredBus(FalconOnAWire& wire)
-    : wire_(&wire, [](FalconOnAWire*) {})
-  {
-  }
-  std::unique_ptr<FtdiLink> open(Status& status, std::string& message) override
-  {
-    const std::lock_guard<std::mutex> lock(wire_->mutex);
-    status = wire_->plugged ? wire_->openStatus : Status::DeviceNotFound;
+    const std::lock_guard<std::mutex> lock(wire.mutex);
+    status = wire.plugged ? wire.openStatus : Status::DeviceNotFound;
     message = status == Status::Ok ? "" : "the test's bus refuses";
-    return status == Status::Ok ? std::make_unique<WiredLink<Guard>>(*wire_) : nullptr;
-  }
-
-private:
-  std::shared_ptr<FalconOnAWire> wire_;
-};
+    return status == Status::Ok ? std::make_unique<WiredLink<Guard>>(wire) : nullptr;
+  };
+}
 
 } // namespace trial
 } // namespace pointhaptics
