@@ -5,6 +5,8 @@
 
 #include "vtkErrorCode.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -55,6 +57,18 @@ inline std::string atLine(std::size_t line)
   throw FileProblem(vtkErrorCode::FileFormatError, what, cure);
 }
 
+/// Throws as failFormat() where @p isWrong: fmt makes the text of @p what and @p parts only then. Not for
+/// loops over points: the parts are evaluated each time.
+template <typename... Parts>
+void failFormatIf(
+  bool isWrong, const char* cure, fmt::format_string<const Parts&...> what, const Parts&... parts)
+{
+  if (isWrong)
+  {
+    failFormat(fmt::format(what, parts...), cure);
+  }
+}
+
 inline constexpr const char* kDamagedCure = "the file is damaged: copy or write it again";
 /// Behind the cure of a file that is cut.
 inline constexpr const char* kSalvageCure = ", or read what is there by --salvage (in VTK: SalvageOn())";
@@ -72,11 +86,31 @@ inline std::string atByte(std::uint64_t offset)
   failFormat(atByte(offset) + what, kDamagedCure);
 }
 
+/// @p offset: of the bytes that cannot be.
+template <typename... Parts>
+void failDamagedIf(
+  bool isWrong, std::uint64_t offset, fmt::format_string<const Parts&...> what, const Parts&... parts)
+{
+  if (isWrong)
+  {
+    failDamaged(offset, fmt::format(what, parts...));
+  }
+}
+
 /// The file ends before the points its header promises. @param more of the cure.
 [[noreturn]] inline void failTruncated(const std::string& what, const std::string& more = {})
 {
   throw FileProblem(vtkErrorCode::PrematureEndOfFileError, what,
     "the file is cut short or its header is wrong: copy it again" + more);
+}
+
+template <typename... Parts>
+void failTruncatedIf(bool isWrong, fmt::format_string<const Parts&...> what, const Parts&... parts)
+{
+  if (isWrong)
+  {
+    failTruncated(fmt::format(what, parts...));
+  }
 }
 
 /// The file is valid and announces no points: what it says beside them is worth knowing.

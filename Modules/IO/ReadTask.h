@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -111,11 +110,7 @@ struct ReadTask
     return shared ? shared->gatherValues(own) : std::vector<T>{ own };
   }
   /// Collective as well: the sum of what each rank has.
-  std::int64_t sumOfRanks(std::int64_t own) const
-  {
-    const std::vector<std::int64_t> all = this->ofRanks(own);
-    return std::accumulate(all.begin(), all.end(), std::int64_t{ 0 });
-  }
+  std::int64_t sumOfRanks(std::int64_t own) const { return shared ? shared->sum(own) : own; }
   /// What is to be done where the file, as @p what says, ends after @p there of @p all points: it is refused,
   /// or read as far as it goes, with a note. @return @p there. @throws FileProblem.
   std::uint64_t endAt(std::uint64_t there, std::uint64_t all, const std::string& what)

@@ -1,6 +1,8 @@
 #include "SharedReading.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
+
+#include <utility>
 
 namespace pointhaptics::io
 {
@@ -26,12 +28,16 @@ RowRange SharedReading::rowsOf(std::uint64_t all) const
   return { end(rank), end(rank + 1) };
 }
 
-std::vector<std::string> SharedReading::gather(const std::string& own)
+std::vector<std::string> SharedReading::exchange(std::vector<std::string> messages)
 {
-  std::vector<std::string> all = ranks_.gather(bytesOfValues(std::vector<Preface>{ { bytes_, 0 } }) + own);
+  for (std::string& message : messages)
+  {
+    message.insert(0, bytesOfValues(std::vector<Preface>{ { bytes_, 0 } }));
+  }
+  messages = ranks_.exchange(std::move(messages));
   bool hasFailed = false;
   bool isSame = true;
-  for (std::string& message : all)
+  for (std::string& message : messages)
   {
     const Preface preface = valuesOfBytes<Preface>(message.substr(0, sizeof(Preface))).at(0);
     hasFailed = hasFailed || preface.failed != 0;
@@ -45,7 +51,7 @@ std::vector<std::string> SharedReading::gather(const std::string& own)
   }
   failFormatIf(!isSame, "give all ranks the same file",
     "the file has {} bytes here and another size on another rank", bytes_);
-  return all;
+  return messages;
 }
 
 void SharedReading::fail()

@@ -28,9 +28,10 @@ class OtherRankFailed : public std::exception
 {
 };
 
-/// Messages between ranks that read a file together. Each rank says with every message whether it can go on,
-/// so that a fault of one ends the reading of all, and none waits for it.
-class SharedReading
+/// The ranks that read a file together. Each says with every message whether it can go on, so that a fault of
+/// one ends the reading of all, and none waits for it. Each exchange @throws OtherRankFailed; FileProblem
+/// where ranks see files of different sizes.
+class SharedReading : public Ranks
 {
 public:
   /// @p ranks must outlive this object. @p bytes: of the file; all ranks must see the same.
@@ -39,23 +40,15 @@ public:
     , bytes_(bytes)
   {
   }
+
+  int rank() const override { return ranks_.rank(); }
+  int size() const override { return ranks_.size(); }
+  std::vector<std::string> exchange(std::vector<std::string> messages) override;
+
   /// This rank's of @p all rows: as many on each.
   RowRange rowsOf(std::uint64_t all) const;
-  /// Collective: what each rank has. @throws OtherRankFailed; FileProblem where ranks see files of different
-  /// sizes.
-  std::vector<std::string> gather(const std::string& own);
-  /// Gathers a plain value.
-  template <typename T>
-  std::vector<T> gatherValues(const T& own)
-  {
-    std::vector<T> all;
-    for (const std::string& bytes : this->gather(bytesOfValues(std::vector<T>{ own })))
-    {
-      all.push_back(valuesOfBytes<T>(bytes).at(0));
-    }
-    return all;
-  }
-  /// This rank cannot go on: tells the others in the place of the next gather(), unless they know.
+
+  /// This rank cannot go on: tells the others in the place of the next exchange, unless they know.
   void fail();
 
 private:

@@ -1,7 +1,7 @@
 #include "vtkPointCloudReader.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/FileBytes.h"
+#include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatList.h"
 #include "IO/Formats/FormatLooks.h"

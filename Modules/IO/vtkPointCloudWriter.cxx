@@ -1,7 +1,7 @@
 #include "vtkPointCloudWriter.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/FileBytes.h"
+#include "FileProblem.h"
 #include "IO/Formats/FormatList.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Info/FieldText.h"

@@ -2,6 +2,7 @@
 /// The interface between Core's distributed steps and what carries their messages (VTK's MPI in Parallel).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -107,5 +108,28 @@ public:
     return std::accumulate(all.begin(), all.begin() + this->rank(), std::int64_t(0));
   }
 };
+
+/// Collective: values that cut those of all ranks into size() parts with about as many each; none where no
+/// rank has a value. Every rank shows each n-th of its @p own, the same n on all: about @p samplesPerRank.
+template <typename T>
+std::vector<T> cutsOf(Ranks& ranks, const std::vector<T>& own, std::int64_t samplesPerRank)
+{
+  const auto size = std::size_t(ranks.size());
+  const std::int64_t all = ranks.sum(std::int64_t(own.size()));
+  const auto step = std::size_t(std::max<std::int64_t>(1, all / (samplesPerRank * std::int64_t(size))));
+  std::vector<T> shown;
+  for (std::size_t i = 0; i < own.size(); i += step)
+  {
+    shown.push_back(own[i]);
+  }
+  std::vector<T> sample = ranks.gatherAll(shown);
+  std::sort(sample.begin(), sample.end());
+  std::vector<T> cuts;
+  for (std::size_t r = 1; r < size && !sample.empty(); ++r)
+  {
+    cuts.push_back(sample[sample.size() * r / size]);
+  }
+  return cuts;
+}
 
 } // namespace pointhaptics

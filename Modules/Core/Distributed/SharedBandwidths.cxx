@@ -2,16 +2,151 @@
 
 #include "Core/Bandwidth/Density.h"
 #include "Core/Bandwidth/LocalBandwidth.h"
-#include "Core/Distributed/SpaceSlabs.h"
+#include "Core/Distributed/SharedVoxels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 namespace pointhaptics
 {
 namespace
 {
+
+/// A point on its way between ranks.
+struct SlabPoint
+{
+  Vec3 place;
+  std::int64_t index = 0; ///< Among the points of all ranks.
+  double count = 1.0;
+};
+
+/// Coordinates along the axis of the slabs.
+struct SlabRange
+{
+  double low = INFINITY;
+  double high = -INFINITY;
+
+  void include(double from, double to)
+  {
+    low = from < low ? from : low;
+    high = to > high ? to : high;
+  }
+  bool contains(double c) const { return c >= low && c <= high; }
+};
+
+bool comesBefore(const SlabPoint& a, const SlabPoint& b)
+{
+  return a.index < b.index;
+}
+
+int longestAxis(const Bounds& box)
+{
+  // Halves: the extent may be more than the largest number.
+  const Vec3 half = box.empty() ? Vec3() : 0.5 * box.maximum - 0.5 * box.minimum;
+  return half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
+}
+
+/// Slabs of about as many points each across the longest axis of the cloud. Points that are not finite are in
+/// none.
+class SpaceSlabs
+{
+public:
+  /// Collective. @p counts: one for each of @p points, or empty.
+  SpaceSlabs(Ranks& ranks, const PointView& points, const std::vector<double>& counts)
+    : ranks_(ranks)
+  {
+    for (std::int64_t i = 0; i < points.size(); ++i)
+    {
+      if (isFinite(points[i]))
+      {
+        own_.push_back({ points[i], i, counts.empty() ? 1.0 : counts[std::size_t(i)] });
+        box_.include(points[i]);
+      }
+    }
+    box_ = commonBounds(ranks, box_);
+    pointsOfAll_ = ranks.sum(std::int64_t(own_.size()));
+    firsts_.push_back(0);
+    for (const std::int64_t size : ranks.gatherValues(points.size()))
+    {
+      firsts_.push_back(firsts_.back() + size);
+    }
+    axis_ = longestAxis(box_);
+    std::vector<double> places;
+    for (SlabPoint& point : own_)
+    {
+      point.index += firsts_[std::size_t(ranks.rank())];
+      places.push_back(this->coordinate(point));
+    }
+    const std::vector<double> cuts = cutsOf(ranks, places, 1024);
+    std::vector<std::vector<SlabPoint>> ofRanks(std::size_t(ranks.size()));
+    for (const SlabPoint& point : own_)
+    {
+      const auto slab = std::upper_bound(cuts.begin(), cuts.end(), this->coordinate(point)) - cuts.begin();
+      ofRanks[std::size_t(slab)].push_back(point);
+    }
+    // By index: each rank has its points in order, and those of the next rank come after them.
+    own_ = ranks.exchangeValues(ofRanks);
+  }
+
+  /// Points of this rank's slab, by index.
+  const std::vector<SlabPoint>& own() const { return own_; }
+  double coordinate(const SlabPoint& point) const { return point.place[axis_]; }
+  /// Finite points of all ranks, and the box about them.
+  std::int64_t pointsOfAll() const { return pointsOfAll_; }
+  const Bounds& box() const { return box_; }
+
+  /// Collective: the own points and those of other slabs in @p range, by index.
+  std::vector<SlabPoint> withGhosts(const SlabRange& range)
+  {
+    const std::vector<SlabRange> ranges = ranks_.gatherValues(range);
+    std::vector<std::vector<SlabPoint>> wanted(ranges.size());
+    for (std::size_t r = 0; r < ranges.size(); ++r)
+    {
+      std::copy_if(own_.begin(), own_.end(), std::back_inserter(wanted[r]),
+        [&](const SlabPoint& point)
+        { return int(r) != ranks_.rank() && ranges[r].contains(this->coordinate(point)); });
+    }
+    std::vector<SlabPoint> ghosts = ranks_.exchangeValues(wanted);
+    std::sort(ghosts.begin(), ghosts.end(), &comesBefore);
+    std::vector<SlabPoint> all(ghosts.size() + own_.size());
+    std::merge(ghosts.begin(), ghosts.end(), own_.begin(), own_.end(), all.begin(), &comesBefore);
+    return all;
+  }
+
+  /// Collective: gives values of the own points back to the ranks whose points they are. @return one for each
+  /// of these, 0 for points that are not finite.
+  std::vector<double> giveBack(const std::vector<double>& values)
+  {
+    struct Placed
+    {
+      std::int64_t place;
+      double value;
+    };
+    std::vector<std::vector<Placed>> ofRanks(std::size_t(ranks_.size()));
+    for (std::size_t i = 0; i < own_.size(); ++i)
+    {
+      const auto owner = std::upper_bound(firsts_.begin(), firsts_.end(), own_[i].index) - 1;
+      ofRanks[std::size_t(owner - firsts_.begin())].push_back({ own_[i].index - *owner, values[i] });
+    }
+    const auto rank = std::size_t(ranks_.rank());
+    std::vector<double> result(std::size_t(firsts_[rank + 1] - firsts_[rank]), 0.0);
+    for (const Placed& placed : ranks_.exchangeValues(ofRanks))
+    {
+      result[std::size_t(placed.place)] = placed.value;
+    }
+    return result;
+  }
+
+private:
+  Ranks& ranks_;
+  int axis_ = 0;
+  std::int64_t pointsOfAll_ = 0;
+  Bounds box_;
+  std::vector<std::int64_t> firsts_; ///< Index of the first point of each rank, and the number of all.
+  std::vector<SlabPoint> own_;
+};
 
 constexpr SlabRange kEverywhere{ -INFINITY, INFINITY };
 

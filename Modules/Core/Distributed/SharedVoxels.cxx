@@ -6,12 +6,6 @@
 
 namespace pointhaptics
 {
-namespace
-{
-
-constexpr std::uint64_t kBeyondAllKeys = std::numeric_limits<std::uint64_t>::max();
-
-}
 
 Bounds commonBounds(Ranks& ranks, const Bounds& own)
 {
@@ -27,27 +21,12 @@ Bounds commonBounds(Ranks& ranks, const Bounds& own)
     });
 }
 
-/// Every rank shows each n-th of its voxels, the same n on all, so that a rank's part of the sample is its
-/// part of the voxels.
 std::vector<std::uint64_t> shareKeys(Ranks& ranks, const std::vector<std::uint64_t>& own)
 {
-  constexpr std::int64_t kSamplesPerRank = 256;
-  const auto size = std::size_t(ranks.size());
-  const std::int64_t voxels = ranks.sum(std::int64_t(own.size()));
-  const auto step = std::size_t(std::max<std::int64_t>(1, voxels / (kSamplesPerRank * std::int64_t(size))));
-  std::vector<std::uint64_t> shown;
-  for (std::size_t i = 0; i < own.size(); i += step)
-  {
-    shown.push_back(own[i]);
-  }
-  std::vector<std::uint64_t> sample = ranks.gatherAll(shown);
-  std::sort(sample.begin(), sample.end());
-  std::vector<std::uint64_t> ranges(size + 1, 0);
-  for (std::size_t r = 1; r < size && !sample.empty(); ++r)
-  {
-    ranges[r] = sample[sample.size() * r / size];
-  }
-  ranges.back() = kBeyondAllKeys;
+  std::vector<std::uint64_t> ranges = cutsOf(ranks, own, 256);
+  ranges.resize(std::size_t(ranks.size()) - 1, 0); // no rank has a voxel
+  ranges.insert(ranges.begin(), 0);
+  ranges.push_back(std::numeric_limits<std::uint64_t>::max());
   return ranges;
 }
 

@@ -1,6 +1,6 @@
 #include "Bytes/FileBytes.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 
 #include "Core/Base/OutputFile.h"
 

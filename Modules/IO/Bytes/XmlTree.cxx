@@ -1,6 +1,6 @@
 #include "IO/Bytes/XmlTree.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 
 #include "vtk_expat.h"

@@ -1,7 +1,7 @@
-#include "OutputColumns.h"
+#include "IO/WriteTask.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
+#include "FileProblem.h"
 #include "IO/Formats/FormatLooks.h"
 
 #include "Core/Base/FieldNames.h"

@@ -1,7 +1,7 @@
 #include "IO/E57/E57Columns.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
+#include "FileProblem.h"
 
 #include <algorithm>
 #include <limits>

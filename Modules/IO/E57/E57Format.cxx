@@ -1,8 +1,8 @@
 #include "ReadTask.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/DisjointRanges.h"
 #include "Bytes/NumericType.h"
+#include "FileProblem.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/E57/E57Columns.h"

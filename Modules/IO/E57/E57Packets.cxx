@@ -1,7 +1,7 @@
 #include "IO/E57/E57Packets.h"
 
-#include "Bytes/Checks.h"
-#include "Bytes/LittleEndian.h"
+#include "Bytes/StridedCopy.h"
+#include "FileProblem.h"
 #include "ReadTask.h"
 
 #include <algorithm>

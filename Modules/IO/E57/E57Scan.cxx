@@ -1,6 +1,6 @@
 #include "IO/E57/E57Scan.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Bytes/XmlTree.h"
 #include "IO/Columns/CloudColumns.h"

@@ -1,4 +1,4 @@
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Text/TextCells.h"
 #include "ReadTask.h"

@@ -1,4 +1,4 @@
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"

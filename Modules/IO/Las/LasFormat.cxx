@@ -1,6 +1,6 @@
 #include "ReadTask.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Info/LengthUnit.h"
 #include "IO/Las/LasHeader.h"
@@ -316,10 +316,6 @@ void readLas(ReadTask& task, vtkPolyData* cloud)
   else
   {
     readPlain(task, header, rows.first, records);
-  }
-  if (task.shared)
-  {
-    records.agree(*task.shared);
   }
   records.moveTo(cloud, task);
   header.origin.addTo(cloud);

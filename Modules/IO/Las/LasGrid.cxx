@@ -1,6 +1,6 @@
 #include "IO/Las/LasGrid.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Info/LengthUnit.h"
 
 #include <algorithm>

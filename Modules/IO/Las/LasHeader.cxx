@@ -1,7 +1,7 @@
 #include "IO/Las/LasHeader.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
+#include "FileProblem.h"
 #include "IO/Las/LasCoordinateSystem.h"
 #include "ReadTask.h"
 

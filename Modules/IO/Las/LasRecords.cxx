@@ -218,28 +218,19 @@ void LasRecords::fill(const LasBlock& block)
   fillExtra(block);
 }
 
-void LasRecords::agree(SharedReading& shared)
-{
-  std::array<bool, kNumberOfLasFields> own{};
-  std::transform(
-    rare_.begin(), rare_.end(), own.begin(), [](const RareBits& bits) { return bits.isSet.load(); });
-  for (const auto& found : shared.gatherValues(own))
-  {
-    for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
-    {
-      rare_[i].isSet = rare_[i].isSet || found[i];
-    }
-  }
-}
-
 void LasRecords::moveTo(vtkPolyData* cloud, ReadTask& task)
 {
   columns_.cut(task.pointsThere);
   rows_ = static_cast<vtkIdType>(std::min(task.pointsThere, static_cast<std::uint64_t>(rows_)));
   columns_.moveTo(cloud, task);
-  for (const RareBits& bits : rare_)
+  std::array<bool, kNumberOfLasFields> areSet{};
+  std::transform(
+    rare_.begin(), rare_.end(), areSet.begin(), [](const RareBits& bits) { return bits.isSet.load(); });
+  const std::vector<std::array<bool, kNumberOfLasFields>> ofRanks = task.ofRanks(areSet);
+  for (std::size_t i = 0; i < kNumberOfLasFields; ++i)
   {
-    if (bits.isSet)
+    const RareBits& bits = rare_[i];
+    if (std::any_of(ofRanks.begin(), ofRanks.end(), [i](const auto& found) { return found[i]; }))
     {
       rows_ < bits.array->GetNumberOfTuples() ? void(bits.array->Resize(rows_)) : void();
       cloud->GetPointData()->AddArray(bits.array);

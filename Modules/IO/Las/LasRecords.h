@@ -47,9 +47,8 @@ public:
   LasRecords(const LasHeader& header, bool onlyPositions);
   /// Blocks of different rows may be filled by several threads at once.
   void fill(const LasBlock& block);
-  /// Collective, when all blocks are filled, where ranks read a file together: the same arrays on each.
-  void agree(SharedReading& shared);
-  /// Gives the arrays to @p cloud when all blocks are filled that are there.
+  /// Gives the arrays to @p cloud when all blocks are filled that are there. Collective where ranks read a
+  /// file together: the same arrays on each.
   void moveTo(vtkPolyData* cloud, ReadTask& task);
 
 private:

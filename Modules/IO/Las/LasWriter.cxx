@@ -1,8 +1,8 @@
 #include "IO/WriteTask.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
 #include "Core/Base/FieldNames.h"
+#include "FileProblem.h"
 #include "IO/Info/FieldText.h"
 #include "IO/Las/LasDescription.h"
 #include "IO/Las/LasGrid.h"

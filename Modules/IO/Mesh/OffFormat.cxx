@@ -1,6 +1,6 @@
 #include "ReadTask.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"

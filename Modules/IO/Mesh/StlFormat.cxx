@@ -1,7 +1,7 @@
 #include "ReadTask.h"
 
-#include "Bytes/Checks.h"
-#include "Bytes/LittleEndian.h"
+#include "Bytes/StridedCopy.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"

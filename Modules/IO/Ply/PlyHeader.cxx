@@ -1,7 +1,7 @@
 #include "IO/Ply/PlyHeader.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/NumericType.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"

@@ -1,6 +1,6 @@
-#include "Bytes/Checks.h"
-#include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
+#include "Bytes/StridedCopy.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Columns/ColumnGuess.h"

@@ -1,6 +1,6 @@
 #include "IO/Text/TextCells.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "IO/Text/TextTable.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 #include "IO/Info/LengthUnit.h"

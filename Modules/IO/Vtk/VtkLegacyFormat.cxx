@@ -1,4 +1,4 @@
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "ReadTask.h"
 
 #include "Bytes/NumericType.h"

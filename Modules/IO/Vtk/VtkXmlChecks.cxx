@@ -1,6 +1,6 @@
 #include "IO/Vtk/VtkXmlChecks.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 
 #include "vtkBase64Utilities.h"

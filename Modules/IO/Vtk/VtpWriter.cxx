@@ -1,4 +1,4 @@
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/WriteTask.h"
 
 #include "Bytes/NumericType.h"

@@ -1,6 +1,6 @@
 #include "IO/Las/Laz/ChunkCoding.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 
 namespace pointhaptics::io
 {

@@ -2,8 +2,7 @@
 /// Decodes the chunks of a LAZ file into the records that an uncompressed file would hold, and encodes these.
 #pragma once
 
-#include "IO/Las/Laz/ArithmeticDecoder.h"
-#include "IO/Las/Laz/ArithmeticEncoder.h"
+#include "IO/Las/Laz/ArithmeticCoder.h"
 #include "IO/Las/Laz/LayeredItems.h"
 #include "IO/Las/Laz/LazChunks.h"
 #include "IO/Las/Laz/PointwiseItems.h"

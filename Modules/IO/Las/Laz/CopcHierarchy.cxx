@@ -1,7 +1,7 @@
 #include "IO/Las/Laz/LazChunks.h"
 
-#include "Bytes/Checks.h"
 #include "Bytes/DisjointRanges.h"
+#include "FileProblem.h"
 #include "IO/Las/LasHeader.h"
 #include "ReadTask.h"
 

@@ -1,12 +1,15 @@
 /// @file
-/// LAZ's layered compression (point formats 6 to 10): each field in a stream of its own, so that those that
-/// are not wanted need not be looked at.
+/// LAZ's layered compression (point formats 6 to 10, version 3): each field in a stream of its own, so that
+/// those that are not wanted need not be looked at. The layer of x, y, returns and channels is the first, and
+/// its labels are contexts for the others. Source: LASzip's published format (M. Isenburg, 2013, and the
+/// notes on its extension to LAS 1.4).
 #pragma once
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Las/Laz/Items/AttributeItems.h"
-#include "IO/Las/Laz/Items/Point14Items.h"
-#include "IO/Las/Laz/Items/WavePacketItem.h"
+#include "IO/Las/Laz/Items/GpsTimeItem.h"
+#include "IO/Las/Laz/Items/Layer.h"
+#include "IO/Las/Laz/Items/PlaneModels.h"
 #include "IO/Las/Laz/LazSchema.h"
 
 #include <algorithm>
@@ -18,6 +21,267 @@
 
 namespace pointhaptics::io
 {
+
+/// Byte offsets in the record.
+enum Point14Offset : std::size_t
+{
+  kHeightOf14 = 8,
+  kIntensityOf14 = 12,
+  kReturnsOf14 = 14, ///< 4 bits number, 4 of how many
+  kFlagsOf14 = 15,   ///< 4 bits classification flags, 2 channel, scan direction, edge of the flight line
+  kClassificationOf14 = 16,
+  kUserDataOf14 = 17,
+  kScanAngleOf14 = 18,
+  kSourceOf14 = 20,
+  kGpsTimeOf14 = 22,
+};
+
+/// x, y, number of the return and of how many, scanner channel, and which of time, scan angle and source
+/// change.
+class PositionLayer
+{
+public:
+  explicit PositionLayer(const char* record)
+    : channels_(channelOf14(record), Last::load(record))
+  {
+  }
+  /// Codes x, y, returns and channel of @p record, and gives the point its label.
+  template <typename Coder>
+  void code(Coder& coder, PointLabel& label, char* record)
+  {
+    Channel* channel = &channels_.current();
+    unsigned changed = 0;
+    Last point;
+    if constexpr (Coder::kEncodes)
+    {
+      point = Last::load(record);
+      changed = changesOf(channels_.at(channelOf14(record)).last, point) |
+        (channelOf14(record) != channels_.currentChannel() ? kChannel : 0u);
+    }
+    changed = coder.symbol(channel->changed[channel->context()], changed);
+    if ((changed & kChannel) != 0)
+    {
+      const unsigned current = channels_.currentChannel();
+      const unsigned step = coder.symbol(channel->steps, (channelOf14(record) - current - 1) & 3);
+      channel = &channels_.select((current + step + 1) & 3);
+    }
+    if constexpr (!Coder::kEncodes)
+    {
+      point = channel->last;
+    }
+    label.channel = static_cast<std::uint8_t>(channels_.currentChannel());
+    label.attributeChannel = (changed & kChannel) != 0 ? label.channel : std::uint8_t{ 0 };
+    label.hasNewTime = (changed & kTime) != 0;
+    label.hasNewScanAngle = (changed & kScanAngle) != 0;
+    label.hasNewSource = (changed & kSource) != 0;
+    codeReturns(coder, *channel, changed, point);
+    codePosition(coder, *channel, point, label);
+    channel->last = point;
+    channel->hadNewTime = label.hasNewTime;
+    if constexpr (!Coder::kEncodes)
+    {
+      point.store(record, label.channel);
+    }
+  }
+  /// This layer is always there.
+  static bool hasChanges() { return true; }
+
+private:
+  enum Changed : unsigned
+  {
+    kReturn = 3, ///< 0 the same, 1 one more, 2 one less, 3 another
+    kNumberOfReturns = 4,
+    kScanAngle = 8,
+    kTime = 16,
+    kSource = 32,
+    kChannel = 64
+  };
+  struct Last
+  {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    unsigned number = 0;   ///< of the return
+    unsigned ofNumber = 0; ///< returns of its pulse
+    std::uint16_t scanAngle = 0;
+    std::uint16_t source = 0;
+    std::uint64_t time = 0;
+
+    static Last load(const char* record)
+    {
+      return { loadLittle<std::int32_t>(record), loadLittle<std::int32_t>(record + 4),
+        byteAt(record, kReturnsOf14) & 15u, static_cast<unsigned>(byteAt(record, kReturnsOf14) >> 4),
+        loadLittle<std::uint16_t>(record + kScanAngleOf14), loadLittle<std::uint16_t>(record + kSourceOf14),
+        loadLittle<std::uint64_t>(record + kGpsTimeOf14) };
+    }
+    void store(char* record, unsigned channel) const
+    {
+      storeLittle(x, record);
+      storeLittle(y, record + 4);
+      record[kReturnsOf14] = static_cast<char>(number | ofNumber << 4);
+      record[kFlagsOf14] = static_cast<char>((byteAt(record, kFlagsOf14) & 0xcf) | channel << 4);
+    }
+  };
+  struct Channel
+  {
+    Last last;
+    bool hadNewTime = false;
+    PlaneModels<12> plane;
+    ModelBank changed{ 8, 128 };
+    SymbolModel steps{ 3 };
+    ModelBank ofNumbers{ 16, 16 };
+    ModelBank numbers{ 16, 16 };
+    SymbolModel numbersOfSameTime{ 13 };
+
+    explicit Channel(const Last& first)
+      : last(first)
+    {
+    }
+    unsigned context() const
+    {
+      return (last.number == 1 ? 1u : 0u) + (last.number >= last.ofNumber ? 2u : 0u) + (hadNewTime ? 4u : 0u);
+    }
+  };
+
+  static unsigned changesOf(const Last& last, const Last& point)
+  {
+    const unsigned step = (point.number - last.number) & 15;
+    return (step == 0       ? 0u
+               : step == 1  ? 1u
+               : step == 15 ? 2u
+                            : 3u) |
+      (point.ofNumber != last.ofNumber ? kNumberOfReturns : 0u) |
+      (point.scanAngle != last.scanAngle ? kScanAngle : 0u) | (point.time != last.time ? kTime : 0u) |
+      (point.source != last.source ? kSource : 0u);
+  }
+  template <typename Coder>
+  static void codeReturns(Coder& coder, Channel& channel, unsigned changed, Last& point)
+  {
+    const Last& last = channel.last;
+    if ((changed & kNumberOfReturns) != 0)
+    {
+      point.ofNumber = coder.symbol(channel.ofNumbers[last.ofNumber], point.ofNumber);
+    }
+    const unsigned step = changed & kReturn;
+    if (step == 3 && (changed & kTime) != 0)
+    {
+      point.number = coder.symbol(channel.numbers[last.number], point.number);
+    }
+    else if (step == 3)
+    {
+      const unsigned further = coder.symbol(channel.numbersOfSameTime, (point.number - last.number - 2) & 15);
+      point.number = (last.number + further + 2) & 15;
+    }
+    else
+    {
+      point.number = (last.number + (step == 2 ? 15 : step)) & 15;
+    }
+  }
+  template <typename Coder>
+  static void codePosition(Coder& coder, Channel& channel, Last& point, PointLabel& label)
+  {
+    const bool isSingle = point.ofNumber == 1;
+    label.level = static_cast<std::uint8_t>(returnLevel(point.number, point.ofNumber));
+    label.placeInPulse =
+      static_cast<std::uint8_t>((point.number == 1 ? 1 : 0) + (point.number >= point.ofNumber ? 2 : 0));
+    const unsigned context =
+      kReturnContext14[point.ofNumber][point.number] * 2u + (label.hasNewTime ? 1u : 0u);
+    const unsigned length = channel.plane.code(coder, context, isSingle, channel.last, point);
+    label.zContext = static_cast<std::uint8_t>(lengthContext(length, 18, isSingle));
+  }
+
+  Channels<Channel> channels_;
+};
+
+class HeightItem : public NumberItem<std::int32_t>
+{
+public:
+  void start(Value first) { heights_.fill(first); }
+  template <typename Coder>
+  Value code(Coder& coder, const PointLabel& label, Value, Value value)
+  {
+    Value& height = heights_[label.level];
+    return height = models_.code(coder, height, value, label.zContext);
+  }
+
+private:
+  std::array<Value, 8> heights_{};
+  IntegerModels models_{ 32, 20 };
+};
+
+class IntensityItem : public NumberItem<std::uint16_t>
+{
+public:
+  void start(Value first) { intensities_.fill(first); }
+  template <typename Coder>
+  Value code(Coder& coder, const PointLabel& label, Value, Value value)
+  {
+    Value& before = intensities_[label.placeInPulse * 2u + (label.hasNewTime ? 1u : 0u)];
+    return before = static_cast<Value>(models_.code(coder, before, value, label.placeInPulse));
+  }
+
+private:
+  std::array<Value, 8> intensities_{};
+  IntegerModels models_{ 16, 4 };
+};
+
+/// One of @p Symbols symbols, with a model for each of 64 contexts.
+template <unsigned Symbols, unsigned (*contextOf)(const PointLabel&, unsigned last)>
+class SymbolItem : public NumberItem<std::uint8_t>
+{
+public:
+  template <typename Coder>
+  Value code(Coder& coder, const PointLabel& label, Value last, Value value)
+  {
+    return static_cast<Value>(coder.symbol(models_[contextOf(label, last)], value));
+  }
+
+private:
+  ModelBank models_{ 64, Symbols };
+};
+
+inline unsigned contextOfClassification(const PointLabel& label, unsigned last)
+{
+  return (last & 31u) * 2 + (label.placeInPulse == 3 ? 1 : 0);
+}
+inline unsigned contextOfUserData(const PointLabel&, unsigned last)
+{
+  return last / 4u;
+}
+inline unsigned contextOfFlags(const PointLabel&, unsigned last)
+{
+  return last;
+}
+using ClassificationItem = SymbolItem<256, &contextOfClassification>;
+using UserDataItem = SymbolItem<256, &contextOfUserData>;
+
+/// Classification flags, scan direction and edge of the flight line, as 6 bits.
+class FlagsItem : public SymbolItem<64, &contextOfFlags>
+{
+public:
+  static Value load(const char* at) { return static_cast<Value>((*at & 15) | (byteAt(at, 0) >> 6 << 4)); }
+  static void store(Value value, char* at)
+  {
+    *at = static_cast<char>((*at & 0x30) | (value & 15) | value >> 4 << 6);
+  }
+};
+
+/// A number that is coded where its label says that it changes.
+template <typename T, bool PointLabel::*changes, unsigned Contexts>
+class RareItem : public NumberItem<T>
+{
+public:
+  template <typename Coder>
+  T code(Coder& coder, const PointLabel& label, T last, T value)
+  {
+    const unsigned context = Contexts > 1 && label.hasNewTime ? 1 : 0;
+    return label.*changes ? static_cast<T>(models_.code(coder, last, value, context)) : last;
+  }
+
+private:
+  IntegerModels models_{ 16, Contexts };
+};
+using ScanAngleItem = RareItem<std::int16_t, &PointLabel::hasNewScanAngle, 2>;
+using SourceItem = RareItem<std::uint16_t, &PointLabel::hasNewSource, 1>;
 
 /// The layers of one chunk. Coder is ArithmeticDecoder or ArithmeticEncoder. A chunk is its number of points,
 /// the sizes of the layers, and these.

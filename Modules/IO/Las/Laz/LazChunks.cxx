@@ -1,9 +1,8 @@
 #include "IO/Las/Laz/LazChunks.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Las/LasHeader.h"
-#include "IO/Las/Laz/ArithmeticDecoder.h"
-#include "IO/Las/Laz/ArithmeticEncoder.h"
+#include "IO/Las/Laz/ArithmeticCoder.h"
 #include "IO/Las/Laz/IntegerModels.h"
 #include "IO/Las/Laz/LazSchema.h"
 #include "ReadTask.h"

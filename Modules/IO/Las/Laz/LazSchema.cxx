@@ -1,6 +1,6 @@
 #include "IO/Las/Laz/LazSchema.h"
 
-#include "Bytes/Checks.h"
+#include "FileProblem.h"
 #include "IO/Las/LasHeader.h"
 
 #include <vector>
