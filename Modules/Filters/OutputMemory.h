@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -30,20 +29,12 @@ public:
     parts_[part] = newMemory(bytes);
     return parts_[part].get();
   }
-  /// Gives @p array, of VTK's usual layout and with its components set, the @p results of a part as so many
-  /// tuples: in the memory of the part, where they are there.
-  void take(std::size_t part, vtkDataArray* array, std::int64_t tuples, const void* results)
+  /// Gives @p array, of VTK's usual layout and with its components set, the results of a part as so many
+  /// tuples.
+  /// @pre the engine has written them here.
+  void take(std::size_t part, vtkDataArray* array, std::int64_t tuples)
   {
-    if (results && part < parts_.size() && parts_[part].get() == results)
-    {
-      give(std::move(parts_[part]), array, tuples);
-      return;
-    }
-    allocateFor(array, tuples);
-    if (tuples > 0)
-    {
-      std::memcpy(array->GetVoidPointer(0), results, bytesOf(array, tuples));
-    }
+    give(std::move(parts_[part]), array, tuples);
   }
   /// Gives @p array, as take() wants it, memory for so many tuples, not initialised.
   static void allocateFor(vtkDataArray* array, std::int64_t tuples)

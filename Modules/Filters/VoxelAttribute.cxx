@@ -180,7 +180,7 @@ vtkSmartPointer<vtkDataArray> VoxelAttribute::reduced(const VoxelResampler& engi
   }
   else
   {
-    memory.take(OutputAllocator::Attributes + i, result, engine.size(), engine.attribute(i));
+    memory.take(OutputAllocator::Attributes + i, result, engine.size());
   }
   if (array->GetDataType() != result->GetDataType())
   {

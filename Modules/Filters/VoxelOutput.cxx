@@ -79,7 +79,7 @@ vtkSmartPointer<vtkDoubleArray> makeCovariances(const VoxelResampler& engine, Ou
   {
     array->SetComponentName(c, names[c]);
   }
-  memory.take(OutputAllocator::Covariances, array, engine.size(), engine.covariances());
+  memory.take(OutputAllocator::Covariances, array, engine.size());
   return array;
 }
 
@@ -155,14 +155,13 @@ bool OutputFiller::fill(vtkPolyData* output, const std::vector<VoxelAttribute>& 
   vtkPointData* data = output->GetPointData();
   vtkNew<vtkPoints> points;
   points->SetDataType(request.singlePrecision ? VTK_FLOAT : VTK_DOUBLE);
-  memory.take(OutputAllocator::Means, points->GetData(), engine.size(),
-    request.singlePrecision ? static_cast<const void*>(engine.floats()) : engine.doubles());
+  memory.take(OutputAllocator::Means, points->GetData(), engine.size());
   output->SetPoints(points);
   output->SetVerts(makeVertices(vtkIdType(engine.size()), executor));
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "VTK must be built with 64-bit ids");
   vtkNew<vtkIdTypeArray> counts;
   counts->SetName("VoxelPointCount");
-  memory.take(OutputAllocator::Counts, counts, engine.size(), engine.counts());
+  memory.take(OutputAllocator::Counts, counts, engine.size());
   for (std::size_t i = 0; i < attributes.size(); ++i)
   {
     addWithRoles(data, attributes[i].reduced(engine, request, i, memory, executor), attributes[i].roles);

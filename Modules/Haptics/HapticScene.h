@@ -165,8 +165,6 @@ public:
   double contactCell() const { return contactPyramid().level(0).voxelSize; }
   /// Standard deviation of the points about the surface near @p position, metres; 0 where no cell is near.
   double noise(const Vec3& position) const noexcept { return cloud_->scale.noiseAt(pyramid(), position); }
-  /// Values of the fields far from the cloud.
-  const LocalScale& typicalScale() const { return cloud_->scale.typical(); }
   /// True where the covariances of the voxels are known, or each cell is a single point; false for plain
   /// means, whose fits ripple with the voxels.
   bool hasExactMoments() const { return cloud_->exactMoments; }

@@ -111,7 +111,7 @@ struct Proxy::Implementation
       local.covers(change.apply(scene->toLattice(last.sphereCenter)));
   }
 
-  /// Changes to the fallback where a local scene is left; to no scene where it has no fallback yet.
+  /// Changes to the fallback where a local scene is left.
   void enterFallback(const Vec3& place) noexcept
   {
     if (scene && !scene->covers(scene->toLattice(place)))

@@ -6,6 +6,7 @@
 
 #include "vtkNew.h"
 
+#include <functional>
 #include <memory>
 
 class vtkCallbackCommand;
@@ -13,6 +14,19 @@ class vtkMatrix4x4;
 
 namespace pointhaptics
 {
+
+struct LatticeChoice
+{
+  int dimension = 0; ///< Voxels on each axis.
+  vtkSmartPointer<vtkPolyData> means;
+};
+
+/// Chooses 300; or 600 or 1200 where 300 leave fewer than 30,000 means of a cloud that finer voxels would
+/// tell apart, such as a sweep of LiDAR over a street, dense near the scanner and thin at 80 m. @p resample
+/// gives the means of the cloud with so many voxels an axis. Once @p goesOn answers false, the best choice so
+/// far is taken.
+POINTHAPTICSSCENE_EXPORT LatticeChoice chooseLattice(
+  const std::function<vtkSmartPointer<vtkPolyData>(int)>& resample, const std::function<bool()>& goesOn);
 
 /// Filters of a thread. Their messages become BuiltScene::problem.
 class SceneFilters

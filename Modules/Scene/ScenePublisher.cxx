@@ -14,9 +14,8 @@ void ScenePublisher::setSink(Sink sink)
 void ScenePublisher::move(const AffineTransform& modelToWorkspace)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool isThere = isMoved_ && modelToWorkspace == modelToWorkspace_;
-  modelToWorkspace_ = modelToWorkspace;
-  isMoved_ = true;
+  const bool isThere = place_ == modelToWorkspace;
+  place_ = modelToWorkspace;
   if (isThere || !newest_ || !sink_)
   {
     return;
@@ -38,10 +37,10 @@ void ScenePublisher::publish(
   }
   number_ = number;
   newest_ = scene;
-  if (scene && isMoved_ && !(scene->modelToWorkspace() == modelToWorkspace_))
+  if (scene && place_ && !(scene->modelToWorkspace() == *place_))
   {
     Status status = Status::Ok;
-    if (std::shared_ptr<const HapticScene> moved = scene->moved(modelToWorkspace_, status))
+    if (std::shared_ptr<const HapticScene> moved = scene->moved(*place_, status))
     {
       scene = std::move(moved);
     }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 namespace pointhaptics
 {
@@ -41,10 +42,9 @@ private:
   mutable std::mutex mutex_;
   Sink sink_;
   std::shared_ptr<const HapticScene> newest_;
-  AffineTransform modelToWorkspace_;
+  std::optional<AffineTransform> place_; ///< That of the last move().
   std::uint64_t cloud_ = 0;
   std::uint64_t number_ = 0; ///< Number of the newest scene.
-  bool isMoved_ = false;     ///< True if move() was called since the newest scene was asked for.
 };
 
 } // namespace pointhaptics

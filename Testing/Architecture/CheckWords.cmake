@@ -18,7 +18,7 @@ set(words
   "mayRest|restsWhenIdle|restedTicks" "mayIdle, idlesWhenStill, idleTicks"
   "missedTicks|missed_ticks" "deadlineMisses, deadline_misses"
   "lateness" "jitter"
-  "leavePart|withBeyond|wholeCloudNumber|ScenePart" "enterFallback, withFallback, globalCloudNumber, LocalRegion"
+  "leavePart|withBeyond|wholeCloudNumber|ScenePart" "enterFallback, globalCloudNumber, LocalSceneBuilder"
   "fitShare" "fitWeight"
   "NearScene[A-Za-z]*" "LocalSceneProvider"
   "kProxyBallSpeaks" "kProxyBallContact"

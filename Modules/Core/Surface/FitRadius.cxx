@@ -287,7 +287,7 @@ FitScale chooseFitRadius(const CellPyramid& pyramid, const Vec3& seed, double la
 namespace
 {
 
-/// Medians over the nodes about a node.
+/// Medians over a node and those about it.
 LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<FitScale>& scales, std::size_t i)
 {
   const auto& nodes = pyramid.level(nodeLevel);
@@ -301,15 +301,13 @@ LocalScale vote(const CellPyramid& pyramid, int nodeLevel, const std::vector<Fit
       noises.push_back(scales[j].noise);
       cubic += scales[j].cubic ? 1.0 : 0.0;
     });
-  const double radius = radii.empty() ? scales[i].radius : medianOf(radii);
-  const double noise = noises.empty() ? scales[i].noise : medianOf(noises);
-  const double votes = radii.empty() ? 0.0 : cubic / double(radii.size());
+  const double votes = cubic / double(radii.size());
   LocalScale result;
-  result.radius = std::max(scales[i].countRadius, radius);
+  result.radius = std::max(scales[i].countRadius, medianOf(radii));
   result.countRadius = scales[i].countRadius;
-  result.noise = noise;
+  result.noise = medianOf(noises);
   result.cubic = std::clamp((votes - kCubicVotesFrom) / (kCubicVotesTo - kCubicVotesFrom), 0.0, 1.0);
-  result.gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * noise);
+  result.gate = std::max(kGateDepth * scales[i].countRadius, kGateNoise * result.noise);
   return result;
 }
 

@@ -253,7 +253,6 @@ void VoxelReductions::reduce(const BinnedVoxels& voxels, std::size_t first)
   voxels.visit(nearest_.has_value(),
     [&](const PointBlock& block)
     {
-      fetch(block);
       for (int i = 0; voxelIndex_ && i < block.count; ++i)
       {
         voxelIndex_[block.points[i]] = std::int64_t(first + block.voxels[i]);
@@ -261,28 +260,6 @@ void VoxelReductions::reduce(const BinnedVoxels& voxels, std::size_t first)
       addTuples(block);
       nearest_ ? nearest_->add(block) : void();
     });
-}
-
-/// Fetches what is touched of each point, in time for that.
-void VoxelReductions::fetch(const PointBlock& block) const
-{
-  for (int i = 0; voxelIndex_ && i < block.count; ++i)
-  {
-    fetchToWrite(voxelIndex_ + block.points[i]);
-  }
-  // Points in the order of their memory need no fetching.
-  const bool readsArrays = std::size_t(payloads_.count) < arrays_.size(); // else points may have no numbers
-  const bool areScattered =
-    readsArrays && block.count > 0 && block.points[block.count - 1] - block.points[0] != block.count - 1;
-  for (auto a = std::size_t(payloads_.count); areScattered && a < arrays_.size(); ++a)
-  {
-    const AttributeView& view = arrays_[a].view;
-    for (int i = 0; i < block.count; ++i)
-    {
-      simd::fetch(view.tuple(block.points[i]));
-      simd::fetch(view.tuple(block.points[i]) + view.tupleBytes() - 1);
-    }
-  }
 }
 
 /// Tuples that are in payloads are taken from there.

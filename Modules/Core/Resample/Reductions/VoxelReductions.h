@@ -5,7 +5,6 @@
 #include "Core/Base/Buffer.h"
 #include "Core/Base/Vector3.h"
 #include "Core/Resample/AttributeView.h"
-#include "Core/Resample/Kernel/Loops.h"
 #include "Core/Resample/Kernel/VoxelKernel.h"
 #include "Core/Resample/Stages/BinnedVoxels.h"
 #include "Core/Resample/Stages/VoxelTally.h"
@@ -164,7 +163,6 @@ private:
     TallySums sums;
     AttributeTuples tuples; ///< Where they are not summed.
   };
-  void fetch(const PointBlock& block) const;
   void addTuples(const PointBlock& block);
 
   PayloadLayout payloads_;
