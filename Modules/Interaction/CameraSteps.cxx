@@ -4,6 +4,7 @@
 #include "vtkDepthShadingPass.h"
 
 #include "vtkCamera.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
 namespace pointhaptics
@@ -38,7 +39,8 @@ void CameraSteps::run(vtkRenderer* renderer, double farthest, const std::functio
   vtkCamera* camera = renderer->GetActiveCamera();
   const CameraView before(camera);
   const double away = seen_ ? dot(*seen_ - before.eye, before.forward) : 0.0;
-  const bool isMeasured = away > 0.0 && away < farthest && !camera->GetParallelProjection();
+  const bool isMeasured = away > 0.0 && away < farthest && !camera->GetParallelProjection() &&
+    !renderer->GetRenderWindow()->GetStereoRender(); // eyes converge at the focal point
   if (isMeasured)
   {
     camera->SetDistance(away);

@@ -22,8 +22,8 @@ public:
   /// the place that was found before: a picture that was given up for the next step shows none.
   void look(vtkRenderer* renderer, double x, double y);
   /// Runs @p step, which moves the camera of @p renderer without turning it, while the focal point is as far
-  /// away as the place that was found. It stays where that place is farther than @p farthest, or the
-  /// projection is parallel.
+  /// away as the place that was found. It stays where that place is farther than @p farthest, the
+  /// projection is parallel, or two eyes look at it.
   void run(vtkRenderer* renderer, double farthest, const std::function<void()>& step);
 
 private:

@@ -145,6 +145,7 @@ bool ViewScene::open(LoadedCloud loaded, const HapticViewerOptions& options, std
   shown_ = std::move(loaded_.shown);
   cloudBounds_ = {};
   colorBy_ = loaded_.colorBy;
+  mapsHeights_ = false;
   ownColor_ = colorBy_ != "rgb" && findColorSource(loaded_.cloud, colorBy_) ? colorBy_ : std::string();
   picture_ = options.picture;
   picture_.hidden = loaded_.showing.hidden; // as the arrays are written
@@ -243,9 +244,16 @@ void ViewScene::chooseArrays()
 void ViewScene::applyColors()
 {
   // The colours of heights by default have no map: one that is asked for colours the array of heights.
-  if (colorBy_.empty() && picture_.colorMap != "auto" && shown_->colors.rule == ColorRule::Height)
+  const bool hasMap = picture_.colorMap != "auto";
+  if (colorBy_.empty() && hasMap && shown_->colors.rule == ColorRule::Height && !hasColors(loaded_.cloud))
   {
     colorBy_ = kHeightArrayName;
+    mapsHeights_ = true;
+  }
+  else if (mapsHeights_ && !hasMap)
+  {
+    colorBy_.clear();
+    mapsHeights_ = false;
   }
   vtkPolyData* output = bandwidth_->GetOutput();
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
@@ -322,6 +330,7 @@ std::vector<std::string> ViewScene::colorChoices() const
 bool ViewScene::setColorBy(const std::string& name)
 {
   colorBy_ = name;
+  mapsHeights_ = false;
   this->chooseArrays();
   this->applyColors();
   return coloredBy_ != colorBy_;

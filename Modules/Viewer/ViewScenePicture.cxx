@@ -163,7 +163,7 @@ void ViewScene::applyProjection()
 bool ViewScene::isColoredByMap()
 {
   vtkMapper* mapper = this->drawnMapper();
-  return scalarBar_->GetVisibility() && mapper->GetArrayName() && !holdsLabels(mapper->GetArrayName());
+  return wantsScalarBar_ && mapper->GetArrayName() && !holdsLabels(mapper->GetArrayName());
 }
 
 std::array<double, 2> ViewScene::shownColorRange()
@@ -174,7 +174,7 @@ std::array<double, 2> ViewScene::shownColorRange()
 
 std::optional<ViewScene::ColorBarPlace> ViewScene::placeOnColorBar(double x, double y)
 {
-  return this->isColoredByMap() ? this->placeOnBar(x, y, false) : std::nullopt;
+  return scalarBar_->GetVisibility() && this->isColoredByMap() ? this->placeOnBar(x, y, false) : std::nullopt;
 }
 
 std::optional<double> ViewScene::labelOnColorBar(double x, double y)

@@ -152,10 +152,16 @@ inline bool describe(keyed::Line& line, SceneOrigin& origin)
   std::string kind = origin.isLocal() ? "fine" : "whole";
   line.value("kind", kind);
   line.value("model", origin.modelToWorkspace);
-  if (kind == "fine")
+  const bool isRegion = kind == "region"; // of older builds: a part of a whole scene
+  if (kind == "fine" || isRegion)
   {
     line.value("beside", origin.globalCloud);
     line.value("hand", origin.hand);
+  }
+  if (isRegion)
+  {
+    kind = "whole";
+    origin.globalCloud = 0;
   }
   line.value("covariance", origin.useCovariance);
   kind == "fine" ? line.settings(origin.voxels.lattice, "lattice.") : line.settings(origin.voxels);

@@ -140,12 +140,6 @@ bool Reader::takeHeader(const std::string& text)
 
 bool Reader::takeMade(std::uint64_t number, const std::string& text)
 {
-  if (text.rfind("kind=region ", 0) == 0)
-  {
-    return this->fail(
-      "this version makes no scenes of regions: replay it with the one that wrote it, or feel "
-      "it anew by --path");
-  }
   keyed::Line line = keyed::Line::from(text);
   auto origin = std::make_shared<SceneOrigin>();
   bool isRead = describe(line, *origin) && line.isFine() && number > 0 && recording.clouds.count(number) == 0;
@@ -181,8 +175,9 @@ bool Reader::takeEvent(std::uint64_t tick, const std::string& text)
     keyed::Line line = keyed::Line::from(rest);
     describe(line, event);
     const auto cloud = recording.clouds.find(event.number);
-    isRead = isRead && line.isFine() && cloud != recording.clouds.end() &&
-      cloud->second->globalCloud == event.fallback;
+    isRead = isRead && line.isFine() && cloud != recording.clouds.end();
+    event.fallback = isRead && !cloud->second->isLocal() ? 0 : event.fallback; // a region had one
+    isRead = isRead && cloud->second->globalCloud == event.fallback;
   }
   else if (name == "parameters")
   {

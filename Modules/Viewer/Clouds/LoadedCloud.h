@@ -56,7 +56,7 @@ struct CloudRequest
   bool makesScene = false;            ///< True where the cloud will be felt.
   std::optional<ShownRequest> before; ///< Look of a coarse level of the same files: all points get it, too.
   bool isFeltOnly = false;            ///< Nothing is made for a picture: LoadedCloud::means have no arrays.
-  /// Do not wait for the means before the first picture and the scene near the hand:
+  /// Do not wait for the means before the first picture:
   /// LoadedCloud::isResampled. Effective where the options neither show nor record means, nor place the
   /// cloud, so that it may have no points in the workspace.
   bool resamplesLater = false;

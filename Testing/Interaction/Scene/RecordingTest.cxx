@@ -388,7 +388,7 @@ TEST_F(RecordingTest, WhatIsNoRecordingIsRefusedInOneLine)
   this->refuse(with("scene of=", "scene of=77"), "no such event");
   this->refuse(with(": parameters 2", ": parameters 77"), "no such event");
   this->refuse(with("kind=whole", "kind=half"), "no such scene");
-  this->refuse(with("kind=whole", "kind=region"), "feel it anew by --path");
+  this->refuse(with("kind=whole", "kind=region"), "no such scene");
   this->refuse(with("model=1,0", "model=0,0"), "no such scene");
   this->refuse(with("contact.stiffness=800", "contact.stiffness=-1"), "no such parameters");
   this->refuse(with("bandwidth.rule=0", "bandwidth.rule=9"), "no such scene");

@@ -319,7 +319,14 @@ protected:
       return bounds;
     };
     request.publish = [this](std::shared_ptr<const HapticScene> scene, std::uint64_t number)
-    { publisher_.publish(std::move(scene), publisher_.cloud(), number); };
+    {
+      if (scene && scene->fallback())
+      {
+        const std::lock_guard<std::mutex> lock(published_.mutex);
+        finer_.emplace_back(number, scene->modelToLattice().m[2][3]);
+      }
+      publisher_.publish(std::move(scene), publisher_.cloud(), number);
+    };
     AffineTransform place;
     place.m[2][3] = z;
     publisher_.move(place);
@@ -328,6 +335,8 @@ protected:
 
   std::atomic<double> handX_{ 0.0 };
   std::atomic<int> looks_{ 0 };
+  /// Number and height of each finer scene as it was made.
+  std::vector<std::pair<std::uint64_t, double>> finer_;
   Published published_;
   ScenePublisher publisher_;
 };
@@ -392,6 +401,24 @@ TEST_F(RefiningWorkerTest, LooksSeldomAtAHandThatRests)
   EXPECT_LT(looks_ - rested, 50) << "it would be 100";
   handX_ = 0.008;
   EXPECT_NE(published_.finerAt({ 0.008, 0.0, 0.0 }), nullptr);
+}
+
+// The model moves: finer scenes come of where it is, beside the scene of where it was.
+TEST_F(RefiningWorkerTest, RefinesAMovedModelBeforeTheWholeCloudIsThere)
+{
+  worker_.setCloud(makeCloud(0.0001));
+  const std::uint64_t first = this->request(0.0, true);
+  ASSERT_NE(published_.finerAt({}), nullptr);
+  bool isEarly = false;
+  for (int i = 1; i <= 20 && !isEarly; ++i)
+  {
+    const std::uint64_t number = this->request(1e-4 * i, true);
+    worker_.wait();
+    const std::lock_guard<std::mutex> lock(published_.mutex);
+    isEarly = std::any_of(finer_.begin(), finer_.end(),
+      [&](const auto& each) { return each.first < number && each.second == 1e-4 * i; });
+  }
+  EXPECT_TRUE(isEarly) << "requests since " << first;
 }
 
 /// A hand that stays where it is.
