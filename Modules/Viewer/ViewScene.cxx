@@ -436,7 +436,7 @@ void ViewScene::applyLook()
     // Points of any colour may lie behind.
     const double plate = isLightGround(ground) ? 1.0 : 0.0;
     text->SetBackgroundColor(plate, plate, plate);
-    text->SetBackgroundOpacity(kPlateOpacity);
+    text->SetBackgroundOpacity(picture_.isHighContrast() ? 1.0 : kPlateOpacity);
   }
   if (figure_)
   {

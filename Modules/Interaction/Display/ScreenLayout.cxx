@@ -94,6 +94,7 @@ void ScreenLayout::arrange(vtkRenderer* renderer)
   if (overlay_ && opaque_ && overlay_->GetOpaque() != opaque_())
   {
     overlay_->SetOpaque(opaque_());
+    sliders_ ? sliders_->SetOpaque(opaque_()) : void();
   }
   std::vector<double> wanted = this->state(renderer);
   const std::string texts = overlay_ ? overlay_->GetStatus() + '\f' + overlay_->GetPanel() + '\f' +

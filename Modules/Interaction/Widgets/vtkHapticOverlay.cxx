@@ -26,6 +26,8 @@ constexpr int kReadableHelp = 9;
 /// window.
 constexpr int kPageFont = 12;
 constexpr int kSmallestHelp = 7;
+/// Letters of a line of the help, at least: the longest key and a little of what it does.
+constexpr std::size_t kNarrowest = 16;
 /// Lines of the plate beside the list: margins, and the number of the page.
 constexpr std::size_t kPlateLines = 2;
 constexpr std::size_t kFooterLines = 2;
@@ -273,7 +275,14 @@ void vtkHapticOverlay::FitHelpPage(const std::vector<std::string>& all, double w
   if (this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight) == 0)
   {
     std::transform(all.begin(), all.end(), lines.begin(), withoutColumns);
-    this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight);
+    const std::vector<std::string> whole = lines;
+    std::size_t longest = longestOf(lines);
+    while (this->FitHelpFont(padded(lines), kPageFont, kSmallestHelp, width, kAnyHeight) == 0 &&
+      longest > kNarrowest)
+    {
+      longest -= 2;
+      lines = wrapped(whole, longest);
+    }
   }
   double needed[2] = { 0.0, 0.0 };
   this->Blocks[HelpBlock].actor->GetSize(this->Renderer, needed);

@@ -46,6 +46,7 @@ constexpr double kRight = 0.98;
 constexpr double kLowest = 0.30;
 constexpr double kStep = 0.1;
 constexpr double kTextAbove = 0.022;
+constexpr double kPlate = 0.6; // opacity behind a text
 /// Pixels of a column that is laid out, and the height of a slider with its text over that of the text.
 constexpr double kLeastWidth = 96.0;
 constexpr double kHalfKnob = 0.06; // over the length of the way
@@ -113,7 +114,7 @@ void place(One& one)
   text->SetJustificationToRight(); // in a small window it grows over the picture, not out of it
   text->SetColor(0.08, 0.08, 0.10);
   text->SetBackgroundColor(1.0, 1.0, 1.0);
-  text->SetBackgroundOpacity(0.6);
+  text->SetBackgroundOpacity(kPlate);
 }
 
 } // namespace
@@ -233,6 +234,14 @@ void vtkHapticSliders::SetCovered(bool covered)
   {
     this->Parts->covered = covered;
     this->ShowOrHide();
+  }
+}
+
+void vtkHapticSliders::SetOpaque(bool opaque)
+{
+  for (One& one : this->Parts->sliders)
+  {
+    one.text->GetTextProperty()->SetBackgroundOpacity(opaque ? 1.0 : kPlate);
   }
 }
 

@@ -76,6 +76,11 @@ public:
   void SetCovered(bool covered);
   ///@}
 
+  /**
+   * Put the texts on opaque plates. Default: off.
+   */
+  void SetOpaque(bool opaque);
+
   ///@{
   /**
    * For pointhaptics::ScreenLayout: the pixels that the sliders need with a font of @p font points, and their

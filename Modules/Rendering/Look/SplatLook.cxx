@@ -142,8 +142,14 @@ void takeOwnShapes(vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, 
   vtkDataArray* turns = data->GetArray("rot") ? data->GetArray("rot") : data->GetArray("rotation");
   const bool areSplats =
     scales && turns && scales->GetNumberOfComponents() == 3 && turns->GetNumberOfComponents() == 4;
+  vtkDataArray* logits = data->GetArray("opacity");
+  vtkDataArray* colors = data->GetArray("RGBA");
+  // A splat that is nowhere half opaque is no wall, however large it is: it is drawn as a point.
+  const auto isOpaque = [&](vtkIdType of)
+  { return logits ? logits->GetComponent(of, 0) >= 0.0 : !colors || colors->GetComponent(of, 3) >= 127.5; };
   std::vector<PointShape>& shapes = measured.shape.points;
   std::vector<float> own;
+  std::size_t splats = 0;
   measured.diameters.resize(areSplats ? shapes.size() : 0);
   for (std::size_t i = 0; i < shapes.size() && (areSplats || normals); ++i)
   {
@@ -151,7 +157,8 @@ void takeOwnShapes(vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, 
     Vec3 normal{ double(shapes[i].normal[0]), double(shapes[i].normal[1]), double(shapes[i].normal[2]) };
     // A cloud that is joined with splats has neither scales nor rotations.
     const OwnDisc disc = areSplats ? discOf(scales, turns, of) : OwnDisc();
-    if (disc.diameter > 0.0)
+    splats += disc.diameter > 0.0;
+    if (disc.diameter > 0.0 && isOpaque(of))
     {
       const double most = 2.0 * double(PointShape::kLargestReach) * double(shapes[i].spacing);
       const double least = std::max(2.0 * kOverlap * double(shapes[i].reach), // where it closes a surface
@@ -169,9 +176,10 @@ void takeOwnShapes(vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, 
     }
     std::copy(&normal.x, &normal.x + 3, shapes[i].normal);
   }
-  if (2 * own.size() > shapes.size()) // most are splats
+  if (2 * splats > shapes.size()) // most are splats
   {
     measured.look.closesAll = measured.look.hasOwnLight = true;
+    own.push_back(0.0F); // where all are faint
     const auto median = own.begin() + std::ptrdiff_t(own.size() / 2);
     std::nth_element(own.begin(), median, own.end());
     measured.look.noiseLength = std::max(measured.look.noiseLength, kStepsOfSplats * double(*median));

@@ -89,6 +89,7 @@ bool HeightProfile::end()
   const bool wasShown = context_.window->HasRenderer(renderer_) != 0;
   context_.window->RemoveRenderer(renderer_);
   this->endPictureAt(1.0);
+  wasShown ? context_.say("profile: closed") : void();
   return wasShown;
 }
 

@@ -510,6 +510,12 @@ TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
       return Splat{ { std::log(0.001), std::log(size), std::log(2.0 * size) },
         { 2.0, 0.0, 2.0, 0.0 } }; // of any length
     });
+  vtkNew<vtkFloatArray> logits;
+  logits->SetName("opacity");
+  logits->SetNumberOfTuples(cloud->GetNumberOfPoints());
+  logits->Fill(2.0);
+  logits->SetValue(9, -1.0F);
+  cloud->GetPointData()->AddArray(logits);
   MeasuredCloud measured;
   ASSERT_TRUE(measureCloud(viewOf(points), {}, std::nullopt, measured));
   takeOwnShapes(cloud, {}, measured);
@@ -519,6 +525,7 @@ TEST(CloudLook, TakesSizeAndTiltOfGaussianSplats)
   vtkDataArray* lengths = cloud->GetPointData()->GetArray(kSplatLengthName);
   EXPECT_NEAR(lengths->GetComponent(7, 0), 2.0 * 1.5 * 0.05 * std::sqrt(2.0), 1e-6);
   EXPECT_LT(lengths->GetComponent(0, 0), 1.0) << "no splat covers what is beside its neighbours";
+  EXPECT_LT(lengths->GetComponent(9, 0), 0.9 * lengths->GetComponent(7, 0)) << "a faint one is a point";
   double normal[3];
   cloud->GetPointData()->GetArray(kSplatNormalName)->GetTuple(7, normal);
   EXPECT_NEAR(std::abs(normal[2]) / kSplatNormalUnit, 0.98, 1e-3);
