@@ -307,9 +307,9 @@ private:
   bool figure_ = false;
   std::string colorBy_;
   bool mapsHeights_ = false; ///< colorBy_ stands for the default, as a colour map was asked for.
-  std::string ownColor_;  ///< An array of the file that the user named.
-  std::string coloredBy_; ///< Array by which the picture is coloured now.
-  LengthUnit unit_;       ///< Unit of the file.
+  std::string ownColor_;     ///< An array of the file that the user named.
+  std::string coloredBy_;    ///< Array by which the picture is coloured now.
+  LengthUnit unit_;          ///< Unit of the file.
   LengthUnit likelyUnit_;
   PictureSettings picture_;
   double fixedPixels_ = 0.0; ///< HapticViewerOptions::pointSize.

@@ -48,8 +48,8 @@ POINTHAPTICSRENDERING_EXPORT bool measureCloud(const PointView& cloud, const Clo
 
 /// Takes what @p cloud says of its points in place of what was measured: its normals, and of Gaussian splats,
 /// which have the arrays "scale" and "rot" (as trainers write them) or "rotation" (.splat), sizes and tilts.
-/// Splats close what is a surface, and are no larger than the widest reach of PointShape. Those whose "opacity"
-/// (a logit) or alpha ("RGBA") is below a half have the size of points.
+/// Splats close what is a surface, and are no larger than the widest reach of PointShape. Those whose
+/// "opacity" (a logit) or alpha ("RGBA") is below a half have the size of points.
 /// @param drawn indices of the measured points in @p cloud; empty: all were measured.
 POINTHAPTICSRENDERING_EXPORT void takeOwnShapes(
   vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, MeasuredCloud& measured);
