@@ -24,11 +24,10 @@ struct SceneOrigin
   VoxelMeanSettings voxels; ///< Settings of the resampler; of a local scene its workspace alone.
   std::optional<LocalBandwidthSettings> bandwidth;
   bool useCovariance = true;
-  AffineTransform modelToWorkspace; ///< Transform of the points.
-  // Of a local scene:
-  Bounds hand;                   ///< The box that it was made about.
-  std::uint64_t globalCloud = 0; ///< HapticScene::cloudNumber() of the global scene beside it.
-  std::shared_ptr<const SceneOrigin> global;
+  AffineTransform modelToWorkspace;          ///< Transform of the points.
+  Bounds hand;                               ///< The box that a local scene was made about.
+  std::uint64_t globalCloud = 0;             ///< HapticScene::cloudNumber() of the global scene beside it.
+  std::shared_ptr<const SceneOrigin> global; ///< Origin of that scene.
 };
 
 } // namespace pointhaptics

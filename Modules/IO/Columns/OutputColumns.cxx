@@ -1,4 +1,4 @@
-#include "IO/WriteTask.h"
+#include "OutputColumns.h"
 
 #include "Bytes/NumericType.h"
 #include "FileProblem.h"

@@ -1,7 +1,7 @@
 #include "IO/E57/E57Decoder.h"
 
+#include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
-#include "Bytes/StridedCopy.h"
 
 #include <algorithm>
 #include <cmath>

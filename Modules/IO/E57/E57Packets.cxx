@@ -1,6 +1,6 @@
 #include "IO/E57/E57Packets.h"
 
-#include "Bytes/StridedCopy.h"
+#include "Bytes/LittleEndian.h"
 #include "FileProblem.h"
 #include "ReadTask.h"
 

@@ -1,6 +1,6 @@
 #include "IO/Formats/FormatLooks.h"
 
-#include "Bytes/StridedCopy.h"
+#include "Bytes/LittleEndian.h"
 #include "FileProblem.h"
 #include "IO/Text/TextCells.h"
 #include "IO/Text/TextTable.h"

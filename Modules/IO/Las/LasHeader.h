@@ -3,7 +3,7 @@
 /// sizes is allocated. Layouts: ASPRS, LAS Specification 1.4 R15.
 #pragma once
 
-#include "Bytes/StridedCopy.h"
+#include "Bytes/LittleEndian.h"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "ReadTask.h"
 
-#include "Bytes/StridedCopy.h"
+#include "Bytes/LittleEndian.h"
 #include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"

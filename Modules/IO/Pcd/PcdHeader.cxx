@@ -1,7 +1,7 @@
 #include "IO/Pcd/PcdHeader.h"
 
+#include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
-#include "Bytes/StridedCopy.h"
 #include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "ReadTask.h"

@@ -1,5 +1,5 @@
+#include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
-#include "Bytes/StridedCopy.h"
 #include "FileProblem.h"
 #include "IO/Bytes/TextScan.h"
 #include "IO/Columns/CloudColumns.h"

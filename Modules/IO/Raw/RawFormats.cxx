@@ -1,7 +1,7 @@
 #include "IO/Formats/FormatList.h"
 
+#include "Bytes/LittleEndian.h"
 #include "Bytes/NumericType.h"
-#include "Bytes/StridedCopy.h"
 #include "IO/Columns/CloudColumns.h"
 #include "IO/Formats/FormatLooks.h"
 #include "ReadTask.h"

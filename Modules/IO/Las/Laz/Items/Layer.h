@@ -7,7 +7,7 @@
 /// before is given.
 #pragma once
 
-#include "Bytes/StridedCopy.h"
+#include "Bytes/LittleEndian.h"
 #include "IO/Las/Laz/SymbolModel.h"
 
 #include <array>
