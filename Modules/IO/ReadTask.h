@@ -135,6 +135,22 @@ struct ReadTask
   }
   /// Whether the file ended among its points.
   bool isTorn() const { return pointsThere != ~std::uint64_t{ 0 }; }
+  /// Notes what follows at @p offset, behind all that the header counts, where it is as long as a record of
+  /// @p size bytes and not blank.
+  void noteUncounted(std::size_t offset, std::size_t size)
+  {
+    if (shared || isTorn() || offset > bytes.size() || size > bytes.size() - offset)
+    {
+      return; // each rank has read its own points only; a file that ends among its points was said to
+    }
+    need(offset, size);
+    constexpr std::string_view kBlank(" \t\r\n\0", 5);
+    if (bytes.substr(offset, size).find_first_not_of(kBlank) != std::string_view::npos)
+    {
+      notes.push_back(std::to_string(bytes.size() - offset) +
+        " bytes follow what the header counts and are left out; correct its counts to read them");
+    }
+  }
   /// The same as a rank that reads it alone: for what cannot be read in parts.
   void takeWhole()
   {

@@ -99,7 +99,7 @@ void addStored(
 }
 
 void fillFromRecords(
-  const ReadTask& task, const PcdHeader& header, const RowRange& wanted, const CloudColumns& columns)
+  ReadTask& task, const PcdHeader& header, const RowRange& wanted, const CloudColumns& columns)
 {
   const std::size_t begin = header.bodyOffset + static_cast<std::size_t>(wanted.first) * header.recordSize;
   task.need(begin, static_cast<std::size_t>(wanted.count()) * header.recordSize);
@@ -110,6 +110,7 @@ void fillFromRecords(
       stored);
   }
   columns.fill(stored, task);
+  task.noteUncounted(begin + static_cast<std::size_t>(wanted.count()) * header.recordSize, header.recordSize);
 }
 
 /// Compressed files hold field after field, as a rule without padding.
@@ -159,6 +160,7 @@ void fillFromAscii(ReadTask& task, const PcdHeader& header, const CloudColumns& 
   LineReader lines(task.bytes.substr(header.bodyOffset), header.bodyLine);
   TextRecords(lines, fields, { "field", "point", "points", "give the field TYPE F in the header" }, true)
     .storeAll(task, header.points, header.points);
+  task.noteUncounted(header.bodyOffset + lines.position(), 1);
   std::vector<StoredColumn> colors;
   for (std::size_t i = 0; i < header.fields.size(); ++i)
   {

@@ -109,10 +109,11 @@ void skipBinaryElement(BinaryBody& body, const PlyElement& element, MeshFaces* f
   }
 }
 
-/// Where the points are read, and what is not read after them, such as faces, is cut: who made the file for
-/// that wants to know.
-template <typename Skip>
-void noteCutElements(ReadTask& task, const PlyHeader& header, Skip&& skip)
+/// Notes elements after the points that are cut, such as faces, and bytes after the last element: who made
+/// the file for them wants to know. @param record least size of such bytes. @param offset tells where the
+/// elements end.
+template <typename Skip, typename Offset>
+void noteTheRest(ReadTask& task, const PlyHeader& header, std::size_t record, Skip&& skip, Offset&& offset)
 {
   if (task.shared || task.isTorn())
   {
@@ -124,6 +125,7 @@ void noteCutElements(ReadTask& task, const PlyHeader& header, Skip&& skip)
     {
       skip(header.elements[i]);
     }
+    task.noteUncounted(offset(), record);
   }
   catch (const FileProblem& problem)
   {
@@ -235,8 +237,10 @@ void readBinaryBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
     fillFixedRecords(body, vertex, columns, task);
     body.skip(static_cast<std::size_t>(rows.count()) * recordSize);
   }
-  noteCutElements(
-    task, header, [&](const PlyElement& element) { skipBinaryElement(body, element, &task.faces); });
+  noteTheRest(
+    task, header, recordSize,
+    [&](const PlyElement& element) { skipBinaryElement(body, element, &task.faces); },
+    [&] { return body.offset(); });
   columns.moveTo(cloud, task);
 }
 
@@ -328,8 +332,10 @@ void readAsciiBody(ReadTask& task, const PlyHeader& header, vtkPolyData* cloud)
   const bool isLast = std::all_of(header.elements.begin() + std::ptrdiff_t(vertexIndex) + 1,
     header.elements.end(), [](const PlyElement& later) { return later.count == 0; });
   TextRecords(lines, fields, kWords, isLast).storeAll(task, rows, vertex.count);
-  noteCutElements(
-    task, header, [&](const PlyElement& element) { skipWholeAsciiElement(lines, element, task.faces); });
+  noteTheRest(
+    task, header, least,
+    [&](const PlyElement& element) { skipWholeAsciiElement(lines, element, task.faces); },
+    [&] { return header.bodyOffset + lines.position(); });
   columns.moveTo(cloud, task);
 }
 

@@ -475,6 +475,22 @@ void noteColumns(std::string_view text, const TextTable& table, const TextLayout
   }
 }
 
+/// Refuses texts of something else, and those without a line of data.
+void failOtherText(std::string_view text, const TextLayout& layout)
+{
+  constexpr std::size_t kStart = 1000;
+  for (const char* columns : { "CAMERA_ID, MODEL, ", "IMAGE_ID, QW, " })
+  {
+    failFormatIf(text.substr(0, kStart).find(columns) != std::string_view::npos,
+      "open points3D.txt, which COLMAP writes beside it", "it lists cameras or images, not points");
+  }
+  std::vector<std::size_t> found;
+  const bool hasOtherLines = layout.bodyOffset > 0 && !findCoordinates(columnsCalled(layout.names), found);
+  failFormatIf(layout.columns == 0 && hasOtherLines, "write one point per line: x y z",
+    "no line holds the numbers of a point");
+  layout.columns == 0 ? failNoPoints() : void();
+}
+
 } // namespace
 
 void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud)
@@ -528,7 +544,7 @@ void readText(ReadTask& task, vtkPolyData* cloud)
   task.format = layout.hasPointCount ? "PTS"
     : isBlank                        ? "text"
                                      : std::string("text (") + separatorName(layout.separator) + ")";
-  layout.columns == 0 ? failNoPoints() : void();
+  failOtherText(text, layout);
   failFormatIf(!task.columns.empty() && task.columns.size() < 3,
     "name x, y and z, and - for each column that is left out",
     "--columns has {} names, and a point needs three", task.columns.size());

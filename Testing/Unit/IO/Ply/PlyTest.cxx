@@ -237,3 +237,20 @@ TEST_F(Ply, ColoursOfFacesAreSaidToBeLeftOut)
   ASSERT_EQ(result.notes.size(), 2u);
   EXPECT_EQ(result.notes[0], "colours of faces are left out: 'red'");
 }
+
+TEST_F(Ply, WhatTheHeaderDoesNotCountIsSaidToBeLeftOut)
+{
+  const std::string properties = "property float x\nproperty float y\nproperty float z\nend_header\n";
+  const std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n" + properties;
+  const std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + properties;
+  const auto notesOf = [this](const std::string& bytes) { return readCloud(write("a.ply", bytes)).notes; };
+  for (const std::string& twice : { text + "1 2 3\n4 5 6\n", binary + std::string(24, '?') })
+  {
+    const std::vector<std::string> notes = notesOf(twice);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes[0].find("bytes follow what the header counts"), std::string::npos);
+  }
+  EXPECT_TRUE(notesOf(text + "1 2 3\n \n\n").empty());
+  EXPECT_TRUE(notesOf(binary + std::string(12, '?') + "\n").empty());
+  EXPECT_TRUE(notesOf(binary + std::string(12, '?') + std::string(100, '\0')).empty());
+}

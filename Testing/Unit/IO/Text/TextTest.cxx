@@ -290,13 +290,17 @@ TEST_F(Text, NamesTheLineOfWhatIsWrong)
   expectRefused(readCloud(write("a.csv",
                   "\xff\xfe"
                   "x")),
-    "no points");
+    "numbers of a point");
   expectRefused(readCloud(write("a.ptx", "2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")), "the file ends at line 6");
   EXPECT_EQ(
     readCloud(write("a.csv", "Easting,Northing,Elevation\n684766.39,5017773.08,7\n")).cloud->GetPoint(0)[2],
     7.0);
   expectRefused(readCloud(write("a.csv", "x,y,z\n")), "holds no points");
   expectRefused(readCloud(write("a.csv", "# nothing\n")), "holds no points");
+  expectRefused(
+    readCloud(write("a.txt", "Dear all,\nthe cloud is attached.\n")), "no line holds the numbers");
+  expectRefused(readCloud(write("cameras.txt", "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n1 A 9 8 7\n")),
+    "open points3D.txt");
   expectRefused(readCloud(write("a.xyz", "1 2\n3 4\n")), "2 columns");
 }
 
