@@ -51,7 +51,7 @@ constexpr double kRimColors[2][3] = { { 1.0, 1.0, 1.0 }, { 0.05, 0.05, 0.06 } };
 constexpr double kNearWidths[2] = { 2.0, 4.0 };
 constexpr double kNearColors[2][3] = { { 1.0, 0.85, 0.10 }, { 0.05, 0.05, 0.06 } };
 /// Priority after all observers that set the camera and the window's dots per inch.
-constexpr float kLast = -2.0F;
+constexpr float kAfterOthers = -2.0F;
 constexpr double kSmallestForce = 0.01; // newtons: shorter arrows are not drawn
 
 /// Sizes as parts of the workspace's edge.
@@ -370,7 +370,7 @@ void vtkHapticProps::AddTo(vtkRenderer* renderer)
   this->Renderer = renderer;
   renderer->AddActor(this->Frame);
   this->ForEach([renderer](vtkOverlayActor* mark) { renderer->AddActor(mark); });
-  this->OnStart.follow(renderer, vtkCommand::StartEvent, kLast);
+  this->OnStart.follow(renderer, vtkCommand::StartEvent, kAfterOthers);
   this->Gauge->AddTo(renderer);
 }
 

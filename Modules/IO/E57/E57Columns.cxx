@@ -36,7 +36,7 @@ constexpr const char* kSecond = "_2";
 
 const std::string kCartesian[] = { "cartesianX", "cartesianY", "cartesianZ" };
 const std::string kSpherical[] = { "sphericalRange", "sphericalAzimuth", "sphericalElevation" };
-const std::string kColors[] = { "colorRed", "colorGreen", "colorBlue" };
+const std::string kChannels[] = { "colorRed", "colorGreen", "colorBlue" };
 constexpr const char* kByteColors[] = { "red", "green", "blue" };
 
 template <std::size_t N>
@@ -58,8 +58,8 @@ bool isIntegerWithin(const E57Field& field, std::int64_t most)
 /// The normals of the extension "nor", whose prefix a file may choose.
 const char* normalColumn(const std::string& field)
 {
-  constexpr Name kNormals[] = { { ":normalX", "nx" }, { ":normalY", "ny" }, { ":normalZ", "nz" } };
-  for (const Name& name : kNormals)
+  constexpr Name kNormalNames[] = { { ":normalX", "nx" }, { ":normalY", "ny" }, { ":normalZ", "nz" } };
+  for (const Name& name : kNormalNames)
   {
     const std::string end = name.field;
     if (field.size() > end.size() && field.compare(field.size() - end.size(), end.size(), end) == 0)
@@ -117,7 +117,7 @@ bool isE57Flag(const std::string& column)
 
 bool hasE57Colors(const E57Scan& scan)
 {
-  return hasAll(scan, kColors);
+  return hasAll(scan, kChannels);
 }
 
 int E57Columns::Values::type() const
@@ -166,7 +166,7 @@ void E57Columns::chooseColors(const std::vector<E57Scan>& scans)
   {
     for (std::size_t i = 0; i < 3 && hasE57Colors(scan); ++i)
     {
-      const E57Field& field = scan.fields[scan.find(kColors[i])];
+      const E57Field& field = scan.fields[scan.find(kChannels[i])];
       hasByteColors_ = hasByteColors_ && isIntegerWithin(field, 255);
       hasWordColors_ = hasWordColors_ && isIntegerWithin(field, 65535);
     }
@@ -193,10 +193,10 @@ void E57Columns::addScan(const E57Scan& scan)
 E57Columns::Place E57Columns::placeOf(const E57Field& field, bool hasColors, std::set<std::size_t>& taken)
 {
   Place place;
-  const auto color = std::find(std::begin(kColors), std::end(kColors), field.name);
-  if (hasColors && color != std::end(kColors))
+  const auto color = std::find(std::begin(kChannels), std::end(kChannels), field.name);
+  if (hasColors && color != std::end(kChannels))
   {
-    const int channel = static_cast<int>(color - std::begin(kColors));
+    const int channel = static_cast<int>(color - std::begin(kChannels));
     if (hasByteColors_)
     {
       place.column = columnNamed(kByteColors[channel]);

@@ -28,7 +28,7 @@ constexpr double kFullForce = 8.0; // newtons of the full bar
 /// Step of the search for a free place, points.
 constexpr double kStep = 12.0;
 /// After ScreenLayout, which says what is taken.
-constexpr float kLast = -2.0F;
+constexpr float kBehindOthers = -2.0F;
 
 bool meet(const std::array<double, 4>& a, const std::array<double, 4>& b)
 {
@@ -201,7 +201,7 @@ void vtkHapticGauge::AddTo(vtkRenderer* renderer)
     renderer->AddActor2D(actor);
   }
   this->Renderer = renderer;
-  this->OnStart.follow(renderer, vtkCommand::StartEvent, kLast);
+  this->OnStart.follow(renderer, vtkCommand::StartEvent, kBehindOthers);
 }
 
 void vtkHapticGauge::RemoveFrom(vtkRenderer* renderer)

@@ -25,7 +25,7 @@ constexpr double kBarBottom = -20.0;
 constexpr std::size_t kLongestText = 38;
 constexpr int kFont = 15;
 /// At which a point is a pixel.
-constexpr double kPointsPerInch = 72.0;
+constexpr double kPointsOfInch = 72.0;
 
 /// The middle is what names of files of one series have in common.
 std::string shortened(const std::string& text)
@@ -87,7 +87,7 @@ std::array<vtkActor2D*, 4> vtkHapticProgress::All() const
 
 void vtkHapticProgress::Measure(vtkRenderer* renderer, double part, double size[2])
 {
-  const double pixels = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsPerInch : 1.0;
+  const double pixels = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetDPI() / kPointsOfInch : 1.0;
   const double scale = part * pixels;
   this->Text->GetTextProperty()->SetFontSize(std::max(1, int(part * kFont)));
   if (scale != this->Scale)

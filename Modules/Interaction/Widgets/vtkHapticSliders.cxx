@@ -44,7 +44,7 @@ constexpr Kind kKinds[vtkHapticSliders::NumberOfSliders] = {
 constexpr double kLeft = 0.83;
 constexpr double kRight = 0.98;
 constexpr double kLowest = 0.30;
-constexpr double kStep = 0.1;
+constexpr double kRow = 0.1;
 constexpr double kTextAbove = 0.022;
 constexpr double kPlate = 0.6; // opacity behind a text
 /// Pixels of a column that is laid out, and the height of a slider with its text over that of the text.
@@ -88,7 +88,7 @@ struct One
 
 void place(One& one)
 {
-  const double row = kLowest + kStep * (vtkHapticSliders::NumberOfSliders - 1 - one.index);
+  const double row = kLowest + kRow * (vtkHapticSliders::NumberOfSliders - 1 - one.index);
   vtkSliderRepresentation2D* picture = one.picture;
   picture->SetMinimumValue(0.0);
   picture->SetMaximumValue(1.0);
@@ -279,7 +279,7 @@ void vtkHapticSliders::PreferredPlace(const double size[2], double box[4]) const
 {
   const int* window = this->Parts->renderer->GetSize();
   const double text = size[1] / (NumberOfSliders * kSliderPerText);
-  const double step = kStep * window[1];
+  const double step = kRow * window[1];
   box[2] = kRight * window[0] + kHalfKnob * this->WayLength();
   box[0] = box[2] - size[0];
   box[1] = kLowest * window[1] - kSliderAt * (step - text);

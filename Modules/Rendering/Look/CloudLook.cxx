@@ -20,7 +20,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 constexpr const char* kKindNames[] = { "object", "terrain", "sweep", "indoors", "frame" };
 /// Number of points that decide about the kind.
-constexpr std::int64_t kSample = 50000;
+constexpr std::int64_t kLookedAt = 50000;
 
 constexpr double kSweepCorrelation = 0.6;
 constexpr double kSweepRange = 5.0;
@@ -43,7 +43,7 @@ Vec3 normalOf(const PointShape& shape)
 template <typename Visit>
 void forSample(const PointView& cloud, const LocalShape& shape, Visit&& visit)
 {
-  const std::int64_t step = 1 + cloud.size() / kSample;
+  const std::int64_t step = 1 + cloud.size() / kLookedAt;
   for (std::int64_t i = 0; i < cloud.size(); i += step)
   {
     if (shape.at(i).spacing > 0.0F && norm2(cloud[i]) > 0.0)
@@ -242,7 +242,7 @@ Bounds coreOf(const PointView& cloud, const LocalShape& shape)
   constexpr float kOnSurface = 0.3F;
   constexpr double kMostFloaters = 0.1;
   constexpr double kCells = 1 << 20; // along an axis
-  const std::int64_t step = 1 + cloud.size() / kSample;
+  const std::int64_t step = 1 + cloud.size() / kLookedAt;
   const double spacing = shape.medianSpacing * std::sqrt(double(step));
   Bounds all;
   std::vector<SamplePoint> rest;
@@ -560,7 +560,7 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
       cloud.size(), seen, [](std::int64_t) { return true; }, tx, ty);
   }
   std::vector<Vec3> sample;
-  for (std::int64_t i = 0; i < cloud.size(); i += 1 + cloud.size() / kSample)
+  for (std::int64_t i = 0; i < cloud.size(); i += 1 + cloud.size() / kLookedAt)
   {
     sample.push_back(seen(i));
   }

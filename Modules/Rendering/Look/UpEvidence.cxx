@@ -9,7 +9,7 @@ namespace pointhaptics
 namespace
 {
 
-constexpr std::int64_t kSample = 20000;
+constexpr std::int64_t kEvidence = 20000;
 constexpr std::size_t kFewest = 200; ///< Fewer points have no shape.
 constexpr double kStrays = 0.005;    ///< Part of the points beyond either end of an axis.
 /// An end is this part of the extent of its axis; its cover is counted in a grid of so many cells across.
@@ -56,7 +56,7 @@ struct Axis
 std::vector<Vec3> sampleOf(const PointView& points)
 {
   std::vector<Vec3> sample;
-  const std::int64_t step = 1 + points.size() / kSample;
+  const std::int64_t step = 1 + points.size() / kEvidence;
   for (std::int64_t i = 0; i < points.size(); i += step)
   {
     if (const Vec3 p = points[i]; isFinite(p) && norm(p) > 0.0)
