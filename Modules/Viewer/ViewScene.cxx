@@ -238,6 +238,11 @@ void ViewScene::chooseArrays()
 {
   bandwidth_->SetComputeDensity(colorBy_ == "Density");
   bandwidth_->SetComputeProxyRadius(colorBy_ == "ProxyRadius");
+  vtkPolyData* averaged = loaded_.cloud;
+  if (showsFelt_ && colorBy_ == kHeightArrayName && !averaged->GetPointData()->HasArray(kHeightArrayName))
+  {
+    addHeightArray(averaged, loaded_.orientation.up);
+  }
 }
 
 /// Colours points and means by the chosen array, or by the default where they lack it.
@@ -257,6 +262,8 @@ void ViewScene::applyColors()
   }
   vtkPolyData* output = bandwidth_->GetOutput();
   applyCloudAppearance(output, mapper_, actor_, colorBy_);
+  actor_->GetProperty()->SetColor(kClayColor[0], kClayColor[1], kClayColor[2]);
+  mapper_->SetScalarVisibility(colorBy_ == kClayName ? false : mapper_->GetScalarVisibility());
   applyColorMap(mapper_, picture_.colorMap, picture_.colorRange);
   this->chooseDrawn();
   this->colorPoints();
@@ -333,7 +340,7 @@ bool ViewScene::setColorBy(const std::string& name)
   mapsHeights_ = false;
   this->chooseArrays();
   this->applyColors();
-  return coloredBy_ != colorBy_;
+  return this->awaitsColors();
 }
 
 void ViewScene::showAmbient(bool ambient)
@@ -425,7 +432,11 @@ void ViewScene::applyLook()
   }
   const std::string name = source ? describeColorSource(drawn, *source) : std::string();
   const bool isLength = this->wantsResiduals() || (source && source->array == kHeightArrayName);
-  scalarBar_->SetTitle((name + (isLength ? " (" + unit_.name + ")\n" : "\n")).c_str());
+  const bool isDensity = source && source->array == "Density";
+  const std::string unit = isLength ? " (" + unit_.name + ")"
+    : isDensity                     ? " (1/" + (drawsFelt_ ? "m" : unit_.name) + "\u00b2)"
+                                    : "";
+  scalarBar_->SetTitle((name + unit + "\n").c_str());
   wantsScalarBar_ = !figure_ && source.has_value();
   scalarBar_->SetVisibility(wantsScalarBar_ && !(barBox_ && barBox_->empty()));
   const Vec3 ink = inkOn(ground);

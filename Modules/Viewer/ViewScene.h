@@ -67,8 +67,8 @@ public:
   /// in the workspace, @p message says so; the scene shows that.
   bool open(LoadedCloud loaded, const HapticViewerOptions& options, std::string& message);
   /// Chooses between the points of the file (the default) and the felt means. Some colours belong to means
-  /// alone: while one of them is shown, means are.
-  void setShowsFelt(bool felt);
+  /// alone: while one of them is shown, means are. @return as setColorBy()
+  bool setShowsFelt(bool felt);
   /// Shows the finished measurement of a cloud that was opened plain; the camera follows, unless it was
   /// moved. @param waits until it is there. @return true if the picture changed.
   bool followMeasurement(bool waits);

@@ -70,13 +70,15 @@ void ViewScene::chooseDrawn()
   pointsActor_->SetVisibility(!drawsFelt_);
 }
 
-void ViewScene::setShowsFelt(bool felt)
+bool ViewScene::setShowsFelt(bool felt)
 {
   showsFelt_ = felt;
   if (shown_)
   {
+    this->chooseArrays();
     this->applyColors();
   }
+  return shown_ && this->awaitsColors();
 }
 
 void ViewScene::colorPoints()

@@ -4,6 +4,7 @@
 #include "CloudAppearance.h"
 #include "PolyDataAccess.h"
 #include "ScreenMarks.h"
+#include "SplatLook.h"
 #include "StereoPicture.h"
 #include "vtkCloudAxes.h"
 #include "vtkHapticGauge.h"
@@ -11,7 +12,9 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkDataArray.h>
 #include <vtkMatrix4x4.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -22,6 +25,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace pointhaptics
 {
@@ -86,6 +90,22 @@ std::array<Vec3, 8> cornersBefore(const AffineTransform& toWorld, const Bounds& 
 double halfTangent(vtkCamera* camera)
 {
   return std::tan(0.5 * camera->GetViewAngle() * kDegree);
+}
+
+/// Radius that few discs of a cloud exceed, unit of the file; 0: of so many points that they are small.
+double largeRadius(vtkPolyData* points)
+{
+  constexpr vtkIdType kFew = 10000;
+  vtkDataArray* lengths = points->GetPointData()->GetArray(kSplatLengthName);
+  const vtkIdType count = lengths && lengths->GetNumberOfTuples() < kFew ? lengths->GetNumberOfTuples() : 0;
+  std::vector<double> sizes(static_cast<std::size_t>(count) + 1, 0.0);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    sizes[static_cast<std::size_t>(i)] = lengths->GetComponent(i, 0);
+  }
+  const auto large = sizes.begin() + count * 19 / 20;
+  std::nth_element(sizes.begin(), large, sizes.end());
+  return 0.5 * *large;
 }
 
 } // namespace
@@ -307,7 +327,9 @@ CameraFit ViewScene::fitFrom(const CloudLook& look, double turn) const
     return fitCamera(PointView(corners.data(), std::int64_t(corners.size())), outside, model, aspect, turn,
       picture_.parallel);
   }
-  return fitCamera(access.view(), look, model, aspect, turn, picture_.parallel);
+  CloudLook withDiscs = look;
+  withDiscs.discRadius = largeRadius(shown_->points);
+  return fitCamera(access.view(), withDiscs, model, aspect, turn, picture_.parallel);
 }
 
 void ViewScene::placeCamera(const CameraFit& fit)

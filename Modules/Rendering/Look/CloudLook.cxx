@@ -585,7 +585,10 @@ CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineT
     const bool isSmall = distanceOf(extremes) - depth >= kStrayFactor * (distanceOf(middle) - depth);
     extremes = std::isfinite(middle.most[0]) && isSmall ? middle : extremes;
   }
-  const double distance = std::max(distanceOf(extremes), depth + 1e-6 * (1.0 + std::abs(depth)));
+  const double ofPoints = distanceOf(extremes) - depth;
+  const double disc = look.discRadius * std::cbrt(std::abs(toWorld.determinant()));
+  const double ofDiscs = kFilledPart * (ofPoints + disc / (tangent * std::min(1.0, aspect)));
+  const double distance = depth + std::max({ ofPoints, ofDiscs, 1e-6 * (1.0 + std::abs(depth)) });
   const double x = 0.5 * (extremes.most[0] - extremes.most[1]);
   const double y = 0.5 * (extremes.most[2] - extremes.most[3]);
   const auto place = [&](double z) { return x * view.right + y * view.up + z * view.back; };

@@ -51,6 +51,7 @@ struct CloudLook
   bool hidesBackFaces = false;
   bool hasOwnLight = false; ///< Its colours are those a camera saw: no light is added to them.
   double meanFlatness = 0.0;
+  double discRadius = 0.0; ///< Discs of this radius are in the first picture, whole.
 };
 
 /// Indices of the drawn points: those that are finite, without rays that did not return, see areNoReturns().
@@ -81,7 +82,7 @@ struct CameraFit
 
 /// The camera that sees the points of @p cloud after @p toWorld, all of them finite, from where @p look says,
 /// turned to the right by @p turn degrees more. Its core takes 92 % of the width or the height of the window,
-/// exactly; a sweep is cut where its thin outskirts would make it much smaller.
+/// exactly, or less where discs at its rim need more; a sweep is cut where its thin outskirts would make it much smaller.
 /// @param aspect width of the window over its height, above 0.
 /// @param parallel for a parallel projection, in which the distance tells the scale: half the height of the
 /// picture is the distance from position to focal point times the tangent of half the view angle.

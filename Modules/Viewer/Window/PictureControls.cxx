@@ -303,8 +303,10 @@ void PictureControls::toggleOutside()
   }
   if (!context_.scene.isColoredByMap())
   {
-    context_.say("hides values outside of the colour map; " + context_.commands.label("colors") +
-      " colours by an array");
+    const bool hasClasses = holdsLabels(context_.scene.colorArray());
+    context_.say(hasClasses ? "nothing is hidden; click on the name of a class to hide it"
+                            : "hides values outside of the colour map; " + context_.commands.label("colors") +
+          " colours by an array");
     return;
   }
   const std::array<double, 2> range = context_.scene.shownColorRange();

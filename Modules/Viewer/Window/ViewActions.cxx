@@ -156,13 +156,18 @@ void ViewWindow::showNextColors()
   options_.colorBy = next == "rgb" ? std::string() : next;
   options_.picture.colorRange.clear(); // of other numbers
   scene_.setPicture(options_.picture);
-  const bool waits = scene_.setColorBy(options_.colorBy);
+  this->awaitColors("coloured by " + colorWord(next), scene_.setColorBy(options_.colorBy));
+}
+
+/// Says @p news. @param waits for means with the colours, which are made then.
+void ViewWindow::awaitColors(const std::string& news, bool waits)
+{
   this->setSceneOptions();
   if (waits)
   {
     style_->InvalidateModel();
   }
-  this->say("coloured by " + colorWord(next) + (waits ? kAsSoonAsComputed : ""));
+  this->say(news + (waits ? kAsSoonAsComputed : ""));
   awaitedColors_ = waits ? news_ : std::string();
 }
 
@@ -183,8 +188,8 @@ void ViewWindow::endAwaitingColors()
 void ViewWindow::toggleFelt()
 {
   options_.felt = !options_.felt;
-  scene_.setShowsFelt(options_.felt);
-  say(options_.felt ? "shown: the voxel means that are felt" : "shown: the points of the file");
+  this->awaitColors(options_.felt ? "shown: the voxel means that are felt" : "shown: the points of the file",
+    scene_.setShowsFelt(options_.felt));
 }
 
 void ViewWindow::toggleAmbient()

@@ -136,16 +136,14 @@ void ViewWindow::releaseHand()
 /// Applies the options that keys changed while the cloud was read.
 void ViewWindow::followOptions(const HapticViewerOptions& then)
 {
-  if (options_.felt != then.felt)
-  {
-    scene_.setShowsFelt(options_.felt);
-  }
+  bool waits = options_.felt != then.felt && scene_.setShowsFelt(options_.felt);
   if (options_.clip != then.clip)
   {
     scene_.setClip(options_.clip);
     this->clipFelt();
   }
-  if (options_.colorBy != then.colorBy && scene_.setColorBy(options_.colorBy))
+  waits = (options_.colorBy != then.colorBy && scene_.setColorBy(options_.colorBy)) || waits;
+  if (waits)
   {
     this->setSceneOptions();
     style_->InvalidateModel();

@@ -133,6 +133,7 @@ private:
   void toggleFelt();
   void toggleAmbient();
   void setSceneOptions();
+  void awaitColors(const std::string& news, bool waits);
   void endAwaitingColors();
   void showFigure(bool figure);
   void onSlider(int slider);

@@ -597,4 +597,26 @@ TEST(CloudLook, ShowsASparsePartBesideADenseOne)
   EXPECT_GT(shown, 1100);
 }
 
+TEST(CloudLook, ShowsTheDiscsOfAFewPoints)
+{
+  const std::vector<Vec3> points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 } };
+  CloudLook look;
+  look.azimuth = look.elevation = 0.0;
+  look.discRadius = 0.3;
+  std::vector<Vec3> rims;
+  for (const Vec3& p : points)
+  {
+    for (const double side : { -look.discRadius, look.discRadius })
+    {
+      rims.push_back(p + Vec3{ side, 0, 0 });
+      rims.push_back(p + Vec3{ 0, 0, side });
+    }
+  }
+  for (const double aspect : { 0.5, 1.0, 1.6 })
+  {
+    const Vec3 most = spread(rims, fitCamera(viewOf(points), look, AffineTransform(), aspect), aspect);
+    EXPECT_NEAR(std::max(most.x, most.y), 1.0, 1e-6) << aspect;
+  }
+}
+
 } // namespace

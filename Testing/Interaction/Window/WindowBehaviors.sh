@@ -1177,3 +1177,14 @@ AnActionAfterEscapeHasWarnedIsNoSecondEscape() {
   ends_with 0 "the second Escape"
 }
 warned_twice() { (($(grep -c "once more ends it and quits" said.txt) == 2)); }
+
+KeyMColoursTheMeansThatKeyDShows() {
+  make plane plane.csv
+  awk 'NR == 1 { print $0 ",r,g,b" } NR > 1 { print $0 ",9,99,9" }' plane.csv >cloud.csv
+  open_viewer cloud.csv
+  key d
+  said "shown: the voxel means that are felt"
+  key m
+  said "coloured by height, as soon as it is computed"
+  until_true "the means have no heights" grep -qxF "coloured by height" said.txt
+}
