@@ -1,5 +1,7 @@
 #include "CloudLook.h"
 
+#include "RoomEvidence.h"
+
 #include "SmpExecutor.h"
 
 #include "Core/Base/Boxes.h"
@@ -157,18 +159,33 @@ double horizontalStrip(const PointView& cloud, const LocalShape& shape, const Ve
   return middle > radius ? (middle + radius) / (middle - radius) : INFINITY;
 }
 
-/// Mean direction of the walls that the sensor at the origin sees.
-Vec3 facesOfWalls(const PointView& cloud, const LocalShape& shape, const Vec3& up, const Vec3& fallback)
+/// Place from which a room was seen: the origin, or its middle, above most that stands in it. A single wall
+/// has no inside.
+Vec3 sensorOf(const PointView& cloud, const LocalShape& shape, const Vec3& up)
+{
+  constexpr double kAboveMiddle = 0.3; // over the height
+  constexpr double kThin = 0.05;       // shortest side over the longest
+  Bounds box;
+  forSample(cloud, shape, [&](const Vec3& p, const PointShape&) { box.include(p); });
+  const Vec3 size = box.extent();
+  const bool isThin = std::min({ size.x, size.y, size.z }) < kThin * std::max({ size.x, size.y, size.z });
+  return box.empty() || isThin || isScannedFromOrigin(cloud, shape)
+    ? Vec3()
+    : box.center() + kAboveMiddle * std::abs(dot(size, up)) * up;
+}
+
+/// Mean direction of the walls that the sensor sees.
+Vec3 facesOfWalls(const PointView& cloud, const LocalShape& shape, const CloudLook& look)
 {
   Vec3 sum;
   forSample(cloud, shape,
     [&](const Vec3& p, const PointShape& each)
     {
       const Vec3 n = normalOf(each);
-      sum += (dot(n, p) > 0.0 ? -1.0 : 1.0) * double(each.flatness) * n;
+      sum += (dot(n, p - look.sensor) > 0.0 ? -1.0 : 1.0) * double(each.flatness) * n;
     });
-  sum -= dot(sum, up) * up;
-  return normalized(sum, fallback);
+  sum -= dot(sum, look.up) * look.up;
+  return normalized(sum, look.front);
 }
 
 void lookAtTerrain(CloudLook& look, const PointView& cloud, const LocalShape& shape)
@@ -474,7 +491,9 @@ CloudKind cloudKind(const PointView& cloud, const LocalShape& shape, const Cloud
   {
     return isUnderARoof(cloud, shape, orientation.up) ? CloudKind::Indoors : CloudKind::Sweep;
   }
-  return facesUp(cloud, shape, orientation.up) ? CloudKind::Terrain : CloudKind::Object;
+  return facesUp(cloud, shape, orientation.up)     ? CloudKind::Terrain
+    : isFurnishedBox(cloud, shape, orientation.up) ? CloudKind::Indoors
+                                                   : CloudKind::Object;
 }
 
 CloudLook cloudLook(
@@ -498,7 +517,8 @@ CloudLook cloudLook(
       break;
     case CloudKind::Sweep:
     case CloudKind::Indoors:
-      look.front = facesOfWalls(cloud, shape, look.up, look.front);
+      look.sensor = kind == CloudKind::Indoors ? sensorOf(cloud, shape, look.up) : Vec3();
+      look.front = facesOfWalls(cloud, shape, look);
       look.azimuth = 0.0;
       look.elevation = 40.0;
       look.hidesBackFaces = kind == CloudKind::Indoors;
@@ -512,27 +532,6 @@ CloudLook cloudLook(
       break;
   }
   return look;
-}
-
-void spaceByRays(const PointView& cloud, LocalShape& shape)
-{
-  std::vector<double> angles;
-  for (std::int64_t i = 0; i + 1 < cloud.size(); ++i)
-  {
-    const Vec3 a = cloud[i];
-    const Vec3 b = cloud[i + 1];
-    if (isFinite(a) && isFinite(b) && a.z * b.z > 0.0)
-    {
-      angles.push_back(std::hypot(a.x / a.z - b.x / b.z, a.y / a.z - b.y / b.z));
-    }
-  }
-  const double angle = angles.empty() ? 0.0 : valueAt(angles, 0.5);
-  for (std::int64_t i = 0; angle > 0.0 && i < cloud.size(); ++i)
-  {
-    PointShape& each = shape.points[std::size_t(i)];
-    each.spacing = each.spacing > 0.0F ? float(angle * std::abs(cloud[i].z)) : 0.0F;
-    each.reach = 0.0F;
-  }
 }
 
 CameraFit fitCamera(const PointView& cloud, const CloudLook& look, const AffineTransform& toWorld,

@@ -22,7 +22,7 @@ enum class CloudKind
   Object,  ///< A thing to walk around: statue, part, tree.
   Terrain, ///< Ground seen from above.
   Sweep,   ///< Scanned from the origin of the file, outdoors.
-  Indoors, ///< Scanned from the origin of the file in a room, which is shown without its near walls.
+  Indoors, ///< A room, scanned from the origin of the file or not, which is shown without its near walls.
   Frame,   ///< One picture of a depth camera.
 };
 
@@ -48,8 +48,9 @@ struct CloudLook
   double noiseLength = 0.0;      ///< Depths that differ by less are one surface,
   double noisePerDistance = 0.0; ///< the same over the distance from the camera.
   bool closesAll = false;        ///< A surface, flat everywhere or not: no splat is kept small on the screen.
-  bool hidesBackFaces = false;
-  bool hasOwnLight = false; ///< Its colours are those a camera saw: no light is added to them.
+  bool hidesBackFaces = false;   ///< Surfaces whose seen side looks away from the viewer are hidden.
+  Vec3 sensor;                   ///< Place from which a sweep or a room was seen: surfaces face it.
+  bool hasOwnLight = false;      ///< Its colours are those a camera saw: no light is added to them.
   double meanFlatness = 0.0;
   double discRadius = 0.0; ///< Discs of this radius are in the first picture, whole.
 };
@@ -59,17 +60,13 @@ POINTHAPTICSRENDERING_EXPORT std::vector<std::uint32_t> drawnPoints(const PointV
 
 /// Decides the kind, the first that fits: a frame, as @p orientation says; a sweep where the spacing grows
 /// with the distance from the origin, indoors where it hits most directions above the sensor; terrain where
-/// the surfaces face up; an object. With y up it is an object.
+/// the surfaces face up; indoors where most points lie on the sides of a box and some within; an object. With y up it is an object.
 POINTHAPTICSRENDERING_EXPORT CloudKind cloudKind(
   const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
 
 /// Derives the look from the @p kind.
 POINTHAPTICSRENDERING_EXPORT CloudLook cloudLook(
   CloudKind kind, const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
-
-/// Gives a frame the spacing of its rays: the distance along the view times the median angle between rays
-/// that follow each other. No gaps are left by discs that are not foreshortened.
-POINTHAPTICSRENDERING_EXPORT void spaceByRays(const PointView& cloud, LocalShape& shape);
 
 /// A camera with its own view angle.
 struct CameraFit
@@ -82,7 +79,8 @@ struct CameraFit
 
 /// The camera that sees the points of @p cloud after @p toWorld, all of them finite, from where @p look says,
 /// turned to the right by @p turn degrees more. Its core takes 92 % of the width or the height of the window,
-/// exactly, or less where discs at its rim need more; a sweep is cut where its thin outskirts would make it much smaller.
+/// exactly, or less where discs at its rim need more; a sweep is cut where its thin outskirts would make it
+/// much smaller.
 /// @param aspect width of the window over its height, above 0.
 /// @param parallel for a parallel projection, in which the distance tells the scale: half the height of the
 /// picture is the distance from position to focal point times the tangent of half the view angle.

@@ -134,6 +134,29 @@ bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
   return true;
 }
 
+void spaceByRays(const PointView& cloud, LocalShape& shape)
+{
+  std::vector<double> angles;
+  for (std::int64_t i = 0; i + 1 < cloud.size(); ++i)
+  {
+    const Vec3 a = cloud[i];
+    const Vec3 b = cloud[i + 1];
+    if (isFinite(a) && isFinite(b) && a.z * b.z > 0.0)
+    {
+      angles.push_back(std::hypot(a.x / a.z - b.x / b.z, a.y / a.z - b.y / b.z));
+    }
+  }
+  const auto median = angles.begin() + std::ptrdiff_t(angles.size() / 2);
+  std::nth_element(angles.begin(), median, angles.end());
+  const double angle = angles.empty() ? 0.0 : *median;
+  for (std::int64_t i = 0; angle > 0.0 && i < cloud.size(); ++i)
+  {
+    PointShape& each = shape.points[std::size_t(i)];
+    each.spacing = each.spacing > 0.0F ? float(angle * std::abs(cloud[i].z)) : 0.0F;
+    each.reach = 0.0F;
+  }
+}
+
 void takeOwnShapes(vtkPolyData* cloud, const std::vector<std::uint32_t>& drawn, MeasuredCloud& measured)
 {
   vtkPointData* data = cloud->GetPointData();
@@ -230,7 +253,7 @@ void addSplats(vtkPolyData* points, const MeasuredCloud& measured)
     growths->SetValue(i,
       static_cast<unsigned short>(std::lround(kSplatGrowthStep * (32.0 + std::clamp(octaves, -32.0, 31.0)))));
     const Vec3 n{ double(each.normal[0]), double(each.normal[1]), double(each.normal[2]) };
-    const double side = facesSensor && dot(n, places[i]) > 0.0 ? -1.0 : 1.0;
+    const double side = facesSensor && dot(n, places[i] - look.sensor) > 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis)
     {
       normals->SetValue(3 * i + axis,

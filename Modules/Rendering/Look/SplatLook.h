@@ -46,6 +46,10 @@ struct MeasuredCloud
 POINTHAPTICSRENDERING_EXPORT bool measureCloud(const PointView& cloud, const CloudOrientation& orientation,
   const std::optional<CloudKind>& kind, MeasuredCloud& measured, ProgressObserver* observer = nullptr);
 
+/// Gives a frame the spacing of its rays: the distance along the view times the median angle between rays
+/// that follow each other. No gaps are left by discs that are not foreshortened.
+POINTHAPTICSRENDERING_EXPORT void spaceByRays(const PointView& cloud, LocalShape& shape);
+
 /// Takes what @p cloud says of its points in place of what was measured: its normals, and of Gaussian splats,
 /// which have the arrays "scale" and "rot" (as trainers write them) or "rotation" (.splat), sizes and tilts.
 /// Splats close what is a surface, and are no larger than the widest reach of PointShape. Those whose

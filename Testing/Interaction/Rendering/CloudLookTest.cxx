@@ -619,4 +619,31 @@ TEST(CloudLook, ShowsTheDiscsOfAFewPoints)
   }
 }
 
+TEST(CloudLook, ShowsTheInsideOfARoomThatIsRegisteredToItsFloor)
+{
+  Random random;
+  std::vector<Vec3> points;
+  // A box from its lowest corner: floor and ceiling, and four walls.
+  const auto addBox = [&](const Vec3& corner, const Vec3& size, int count)
+  {
+    const double areas[3] = { size.y * size.z, size.x * size.z, size.x * size.y };
+    for (int i = 0; i < count; ++i)
+    {
+      const double at = random.between(0.0, areas[0] + areas[1] + areas[2]);
+      const int axis = at < areas[0] ? 0 : at < areas[0] + areas[1] ? 1 : 2;
+      Vec3 p{ random.between(0.0, size.x), random.between(0.0, size.y), random.between(0.0, size.z) };
+      p[axis] = random.between(0.0, 1.0) < 0.5 ? 0.0 : size[axis];
+      points.push_back(AffineTransform::rotation(23.0, { 0, 0, 1 }).apply(corner + p));
+    }
+  };
+  addBox({ 10, 20, 0 }, { 5, 4, 2.5 }, 8000);
+  EXPECT_EQ(kindOf(points), CloudKind::Object) << "an empty one may be a box seen from outside";
+  addBox({ 12, 22, 0.5 }, { 1.6, 0.8, 0.3 }, 1000);
+  EXPECT_EQ(kindOf(points), CloudKind::Indoors);
+  const CloudLook look = cloudLook(CloudKind::Indoors, viewOf(points), measured(points), {});
+  EXPECT_GT(look.sensor.z, 1.5);
+  EXPECT_LT(look.sensor.z, 2.4);
+  EXPECT_GT(norm(look.sensor), 10.0);
+}
+
 } // namespace
