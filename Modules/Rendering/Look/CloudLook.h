@@ -60,7 +60,8 @@ POINTHAPTICSRENDERING_EXPORT std::vector<std::uint32_t> drawnPoints(const PointV
 
 /// Decides the kind, the first that fits: a frame, as @p orientation says; a sweep where the spacing grows
 /// with the distance from the origin, indoors where it hits most directions above the sensor; terrain where
-/// the surfaces face up; indoors where most points lie on the sides of a box and some within; an object. With y up it is an object.
+/// the surfaces face up; indoors where most points lie on the sides of a box and some within; an object. With
+/// y up it is an object.
 POINTHAPTICSRENDERING_EXPORT CloudKind cloudKind(
   const PointView& cloud, const LocalShape& shape, const CloudOrientation& orientation);
 
