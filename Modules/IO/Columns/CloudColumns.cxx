@@ -206,13 +206,11 @@ struct CoordinateName
     std::string called = name.substr(0, bracket);
     if (end != std::string::npos)
     {
-      const std::string inside =
-        utf8Name(std::string(trimmed(std::string_view(name).substr(bracket + 1, end - bracket - 1))));
+      const std::string inside = utf8Name(std::string(trimmed(name.substr(bracket + 1, end - bracket - 1))));
       const bool isWord = inside.size() > 2 && isCoordinateWord(wordsOf(inside)[0]);
       const bool mayBeUnit = name[bracket] == '[' && inside.size() > 1 && !isWord &&
         wordsOf(inside).size() == 1 && inside.find_first_of("0123456789") == std::string::npos;
-      const bool isUnit = mayBeUnit || !lengthUnitCalled(inside).empty();
-      unit = isUnit ? inside : "";
+      unit = mayBeUnit || !lengthUnitCalled(inside).empty() ? inside : "";
       called = isWord ? inside : called;
     }
     for (const std::string& word : wordsOf(called))

@@ -512,25 +512,6 @@ void failOtherText(std::string_view text, const TextLayout& layout)
   layout.columns == 0 ? failNoPoints() : void();
 }
 
-/// Takes off @p text zero bytes and what follows them, as a power cut leaves them, and of salvaged files the
-/// last line, which may be cut within a number. @return what was the matter; empty: nothing.
-std::string takeOffTorn(const ReadTask& task, std::string_view& text)
-{
-  std::string cut;
-  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
-  {
-    cut = atByte(task.bytes.find('\0')) + "zero bytes, as a power cut leaves them";
-    task.salvage ? void() : failTruncated(cut, kSalvageCure);
-    text = text.substr(0, zero);
-  }
-  if (const std::size_t end = text.rfind('\n') + 1; task.salvage && end > 0 && end < text.size())
-  {
-    cut = cut.empty() ? "the file ends within a line" : cut;
-    text = text.substr(0, end);
-  }
-  return cut;
-}
-
 } // namespace
 
 void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud, std::string cut)

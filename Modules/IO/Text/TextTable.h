@@ -88,6 +88,10 @@ struct NumberColumn : ColumnEvidence
   }
 };
 
+/// Takes off @p text zero bytes and what follows them, as a power cut leaves them, and of salvaged files the
+/// last line, which may be cut within a number. @return what was the matter; empty: nothing.
+std::string takeOffTorn(const ReadTask& task, std::string_view& text);
+
 /// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout ("-" skips
 /// one), or as their values suggest (ColumnGuess.h), which task.notes then tells. Columns of texts are left
 /// out, and a few texts among numbers are NaN: task.notes says so; coordinates must be numbers. @throws
