@@ -144,7 +144,7 @@ struct ReadTask
       return; // each rank has read its own points only; a file that ends among its points was said to
     }
     need(offset, size);
-    constexpr std::string_view kBlank(" \t\r\n\0", 5);
+    constexpr std::string_view kBlank(" \t\r\n\x1a\0", 6);
     if (bytes.substr(offset, size).find_first_not_of(kBlank) != std::string_view::npos)
     {
       notes.push_back(std::to_string(bytes.size() - offset) +

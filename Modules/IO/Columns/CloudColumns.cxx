@@ -206,9 +206,11 @@ struct CoordinateName
     std::string called = name.substr(0, bracket);
     if (end != std::string::npos)
     {
-      const std::string inside(trimmed(std::string_view(name).substr(bracket + 1, end - bracket - 1)));
+      const std::string inside = utf8Name(std::string(trimmed(name.substr(bracket + 1, end - bracket - 1))));
       const bool isWord = inside.size() > 2 && isCoordinateWord(wordsOf(inside)[0]);
-      unit = lengthUnitCalled(inside).empty() ? "" : inside;
+      const bool mayBeUnit = name[bracket] == '[' && inside.size() > 1 && !isWord &&
+        wordsOf(inside).size() == 1 && inside.find_first_of("0123456789") == std::string::npos;
+      unit = mayBeUnit || !lengthUnitCalled(inside).empty() ? inside : "";
       called = isWord ? inside : called;
     }
     for (const std::string& word : wordsOf(called))
@@ -264,9 +266,9 @@ bool isOneOf(const Names& lists, const std::string& name)
   std::string names;
   for (std::size_t i = 0; i < std::min(columns.size(), kListed + 1); ++i)
   {
-    names += i < kListed ? (i == 0 ? " " : ", ") + inQuotes(columns[i].name) : std::string(" ...");
+    names += i < kListed ? (i == 0 ? ", but " : ", ") + inQuotes(columns[i].name) : std::string(" ...");
   }
-  failFormat("no columns named x, y and z, but" + names,
+  failFormat("no columns named x, y and z" + names,
     names.find("'packed_position'") != std::string::npos
       ? "this is SuperSplat's compressed PLY: save it uncompressed there, or splat-transform IN.ply OUT.ply"
       : "name the three coordinates x, y and z (or longitude, latitude and height) in the header, or for "

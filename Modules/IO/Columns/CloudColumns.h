@@ -46,7 +46,8 @@ bool findCoordinates(const std::vector<Column>& columns, std::vector<std::size_t
 /// Returns the columns of x, y and z. @throws FileProblem where there are none.
 std::vector<std::size_t> coordinatesOf(const std::vector<Column>& columns);
 
-/// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit.
+/// "mm" of "X1 (mm)" and "x_mm", the names of coordinates; empty where the name says no unit. What stands in
+/// square brackets may be one that nobody knows.
 std::string coordinateUnit(const std::string& name);
 /// "x" of "X [m]", "easting" of "easting": what names the axis, in lower case.
 std::string coordinateWord(const std::string& name);

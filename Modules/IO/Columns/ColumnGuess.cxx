@@ -1,5 +1,6 @@
 #include "IO/Columns/ColumnGuess.h"
 
+#include "FileProblem.h"
 #include "IO/Columns/CloudColumns.h"
 
 #include <fmt/format.h>
@@ -208,6 +209,10 @@ bool areMapCoordinates(const Columns& columns, std::size_t north, std::size_t ea
 GuessedColumns guessColumnNames(
   const std::vector<ColumnEvidence>& columns, bool prefersColors, bool hasName, bool hasDescription)
 {
+  constexpr std::size_t kMostGuessed = 64;
+  failFormatIf(columns.size() > kMostGuessed,
+    "save x, y and z of its pixels, or name the columns by --columns where they are none",
+    "{} columns without names are an image, as of depths", columns.size());
   const bool hasId = isId(columns, hasDescription);
   const bool hasRays = !hasId && areRowAndColumn(columns);
   const std::size_t first = hasRays ? 2 : hasId || isClock(columns) ? 1 : 0;

@@ -68,6 +68,8 @@ std::vector<std::string> wordsOf(const char* text)
 
 const CloudFormat& identifyFormat(std::string_view bytes, std::size_t size, const std::string& extension)
 {
+  failFormatIf(size > 0 && bytes.size() == size && bytes.find_first_not_of('\0') == std::string_view::npos,
+    "copy it again", "the file holds only zero bytes");
   std::string converted;
   const FormatStart start = lookAt(bytes, size, extension, converted);
   refuseForeign(start);

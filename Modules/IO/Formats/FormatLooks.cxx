@@ -159,7 +159,10 @@ FormatStart lookAt(
   start.bytes = converted.empty() ? withoutByteOrderMark(bytes) : converted;
   start.size = size;
   start.extension = extension;
-  start.isText = isText(start.bytes.substr(0, kLookedAt));
+  std::string_view head = start.bytes.substr(0, kLookedAt);
+  head = head.substr(0, head.find_last_not_of('\x1a') + 1);
+  const std::string_view lines = head.substr(0, head.find('\0')); // where a power cut left zero bytes
+  start.isText = isText(isColumnExtension(extension) && lines.find('\n') < lines.size() ? lines : head);
   start.line = firstSignificantLine(start.bytes);
   return start;
 }
@@ -242,7 +245,7 @@ bool looksLikeColumns(const FormatStart& start)
   return start.isText &&
     (isColumnExtension(start.extension) ||
       parseNumber(start.line.data(), start.line.data() + start.line.size(), number) ||
-      inspectText(start.bytes).isTable());
+      inspectText(start.bytes).columns >= 3);
 }
 
 } // namespace pointhaptics::io

@@ -10,7 +10,9 @@
 #include "Core/Neighbors/NeighborQuery.h"
 
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include <fmt/format.h>
@@ -305,12 +307,16 @@ CloudSummary summarize(vtkPolyData* cloud, const std::string& format, bool stati
   summary.chunks = std::int64_t(numberIn(cloud, "Chunks"));
   summary.scans = scansOf(cloud);
   summary.points = cloud->GetNumberOfPoints();
+  summary.isFloat = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT;
+  std::vector<Vec3> points = finitePoints(cloud);
   if (statistics && cloud->GetPoints())
   {
-    summary.coordinates = summaryOf(cloud->GetPoints()->GetData(), true);
+    vtkNew<vtkDoubleArray> finite;
+    finite->SetNumberOfComponents(3);
+    finite->SetArray(&points.data()->x, 3 * vtkIdType(points.size()), 1);
+    summary.coordinates = summaryOf(finite, true);
+    summary.coordinates.type = cloud->GetPoints()->GetData()->GetDataTypeAsString();
   }
-  summary.isFloat = cloud->GetPoints() && cloud->GetPoints()->GetDataType() == VTK_FLOAT;
-  const std::vector<Vec3> points = finitePoints(cloud);
   const CloudExtent extent = extentOf(cloud);
   summary.invalid = extent.invalid;
   summary.bounds = extent.all;

@@ -29,10 +29,13 @@ inline constexpr NamedUnit kLengthUnits[] = {
   { "cm", 1e-2, 1033, "centimetre", "centimetres centimeter centimeters" },
   { "mm", 1e-3, 1025, "millimetre", "millimetres millimeter millimeters" },
   { "um", 1e-6, 0, "micrometre", "micrometres micrometer micrometers \xc2\xb5m \xce\xbcm" },
+  { "nm", 1e-9, 0, "nanometre", "nanometres nanometer nanometers" },
+  { "dm", 1e-1, 0, "decimetre", "decimetres decimeter decimeters" },
   { "km", 1e3, 9036, "kilometre", "kilometres kilometer kilometers" },
   { "in", 0.0254, 0, "inch", "inches" },
   { "ft", 0.3048, 9002, "foot", "feet" },
   { "us-ft", 1200.0 / 3937.0, 9003, "US survey foot", "ftus usft sft" },
+  { "mil", 2.54e-5, 0, "mil", "mils thou" },
   { "yd", 0.9144, 9096, "yard", "yards yds" },
 };
 

@@ -227,16 +227,20 @@ catch (const FileProblem&)
 }
 
 /// The records from number @p begin on, as many as @p header counts.
-void readPlain(const ReadTask& task, const LasHeader& header, std::uint64_t begin, LasRecords& records)
+void readPlain(ReadTask& task, const LasHeader& header, std::uint64_t begin, LasRecords& records)
 {
   const vtkIdType rows = static_cast<vtkIdType>(header.count);
   const std::size_t offset = header.pointsOffset + static_cast<std::size_t>(begin) * header.recordLength;
-  task.need(offset, static_cast<std::size_t>(header.count) * header.recordLength);
+  const std::size_t size = static_cast<std::size_t>(header.count) * header.recordLength;
+  task.need(offset, size);
   const char* first = task.bytes.data() + offset;
   task.fillRows(rows,
     [&](vtkIdType row, vtkIdType end) {
       records.fill({ first + static_cast<std::size_t>(row) * header.recordLength, row, end - row });
     });
+  constexpr int kHasWaves = 2;
+  const bool endsWithPoints = header.origin.farRecords.empty() && (header.globalEncoding & kHasWaves) == 0;
+  endsWithPoints ? task.noteUncounted(offset + size, header.recordLength) : void();
 }
 
 void addBytes(vtkPolyData* cloud, const char* name, const std::string& bytes)

@@ -106,6 +106,7 @@ void readBinary(ReadTask& task, DistinctVertices& vertices)
     task.faces.keep(corners);
     task.step(i, i, count);
   }
+  task.noteUncounted(kTrianglesAt + count * kTriangleSize, kTriangleSize);
 }
 
 void readFacets(ReadTask& task, DistinctVertices& vertices)

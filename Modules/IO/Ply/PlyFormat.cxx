@@ -123,7 +123,13 @@ void noteTheRest(ReadTask& task, const PlyHeader& header, std::size_t record, Sk
   {
     for (std::size_t i = header.vertexElement() + 1; i < header.elements.size(); ++i)
     {
-      skip(header.elements[i]);
+      const PlyElement& element = header.elements[i];
+      if (element.name == "vertex" && element.count > 0)
+      {
+        task.notes.push_back(std::to_string(element.count) +
+          " points of a second element vertex are left out; write all in one element to read them");
+      }
+      skip(element);
     }
     task.noteUncounted(offset(), record);
   }

@@ -46,6 +46,7 @@ class ColumnsDiffer : public FileProblem
 {
 public:
   using FileProblem::FileProblem;
+  std::size_t torn = std::string_view::npos; ///< Where it begins, if it is the last one and has fewer.
 };
 
 /// Walks over the lines of data and shows each cell to a Sink: number(column, value, shape), empty(column),
@@ -144,10 +145,15 @@ struct TableWalk
   }
   [[noreturn]] void failColumns(std::string_view line) const
   {
-    throw ColumnsDiffer(vtkErrorCode::FileFormatError,
-      atLine(lineNumber) + std::to_string(cellsOf(line, layout.separator, lineNumber).size()) +
-        " columns where " + std::to_string(layout.columns) + " were expected",
-      "write the same number of columns on every line");
+    const std::size_t count = cellsOf(line, layout.separator, lineNumber).size();
+    const auto begin = static_cast<std::size_t>(line.data() - text.data());
+    const bool isTorn = count < layout.columns &&
+      text.find_first_not_of(" \t\r\n", begin + line.size()) == std::string_view::npos;
+    ColumnsDiffer problem(vtkErrorCode::FileFormatError,
+      fmt::format("{}{} columns where {} were expected", atLine(lineNumber), count, layout.columns),
+      std::string("write the same number of columns on every line") + (isTorn ? kSalvageCure : ""));
+    problem.torn = isTorn ? begin : problem.torn;
+    throw problem;
   }
 };
 
@@ -401,7 +407,7 @@ void failTornDecimals(std::string_view text, const TextLayout& layout)
 
 /// Takes the unit that the header says: "mm" of "x [mm]", "y [mm]", "z [mm]", "degree" of longitude and
 /// latitude, whose heights are lengths. @throws FileProblem where it says unlike ones.
-void takeUnits(const std::vector<std::string>& names, FileComments& comments)
+void takeUnits(const std::vector<std::string>& names, FileComments& comments, std::vector<std::string>& notes)
 {
   std::string unit;
   const auto coordinates = names.empty() ? std::vector<std::size_t>() : coordinatesOf(columnsCalled(names));
@@ -409,6 +415,11 @@ void takeUnits(const std::vector<std::string>& names, FileComments& comments)
   {
     const std::string own = coordinateUnit(names[i]);
     const std::string known = lengthUnitCalled(own);
+    if (!own.empty() && known.empty())
+    {
+      notes.push_back("unit " + inQuotes(own) + " is not known; --unit says which one it is");
+      return;
+    }
     if (unit == "degree" && i == coordinates[2])
     {
       comments.heightUnit = known.empty() || known == "deg" || known == "m" ? "" : own;
@@ -418,7 +429,7 @@ void takeUnits(const std::vector<std::string>& names, FileComments& comments)
     {
       return;
     }
-    failFormatIf(!unit.empty() && own != unit && (known.empty() || known != lengthUnitCalled(unit)),
+    failFormatIf(!unit.empty() && own != unit && known != lengthUnitCalled(unit),
       "convert the columns to one unit, or name them by --columns where they are in one",
       "{} is in {}, other coordinates are in {}", inQuotes(names[i]), own, unit);
     unit = own;
@@ -426,23 +437,32 @@ void takeUnits(const std::vector<std::string>& names, FileComments& comments)
   comments.unit = unit.empty() ? comments.unit : unit;
 }
 
-/// The first pass. Lines of many lengths, such as those that end with a list, are read as far as all go.
-TextTable surveyLines(const ReadTask& task, std::string_view text, TextLayout& layout)
+/// The first pass. Lines of many lengths, such as those that end with a list, are read as far as all go. Of
+/// salvaged files a last line that is shorter is taken off.
+TextTable surveyLines(const ReadTask& task, std::string_view& text, TextLayout& layout, std::string& cut)
 {
   try
   {
     return surveyTable(task, text, layout);
   }
-  catch (const ColumnsDiffer&)
+  catch (const ColumnsDiffer& problem)
   {
     constexpr std::size_t kFewest = 4;
     const std::size_t columns = layout.names.empty() ? columnsOfAll(text, layout) : 0;
-    if (columns < kFewest)
+    if (columns >= kFewest)
+    {
+      layout.columns = columns;
+      layout.hasMore = true;
+    }
+    else if (task.salvage && problem.torn != std::string_view::npos)
+    {
+      text = text.substr(0, problem.torn);
+      cut = "the file ends within a line";
+    }
+    else
     {
       throw;
     }
-    layout.columns = columns;
-    layout.hasMore = true;
     return surveyTable(task, text, layout);
   }
 }
@@ -486,26 +506,27 @@ void failOtherText(std::string_view text, const TextLayout& layout)
   }
   std::vector<std::size_t> found;
   const bool hasOtherLines = layout.bodyOffset > 0 && !findCoordinates(columnsCalled(layout.names), found);
-  failFormatIf(layout.columns == 0 && hasOtherLines, "write one point per line: x y z",
+  failFormatIf(layout.columns == 0 && hasOtherLines,
+    "write one point per line: x y z, separated by blanks, tabs, commas, semicolons or |",
     "no line holds the numbers of a point");
   layout.columns == 0 ? failNoPoints() : void();
 }
 
 } // namespace
 
-void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud)
+void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud, std::string cut)
 {
-  if (task.salvage && layout.hasPointCount)
-  {
-    text = text.substr(0, text.rfind('\n') + 1); // behind it the file may be cut within a number
-  }
-  const TextTable table = surveyLines(task, text, layout);
+  const TextTable table = surveyLines(task, text, layout, cut);
   table.rows == 0 ? failNoPoints() : void();
   if (table.missing > 0)
   {
     task.endAt(static_cast<std::uint64_t>(table.rows), static_cast<std::uint64_t>(table.rows) + table.missing,
       "the file ends " + std::to_string(table.missing) +
         " points before the count in its first line is reached");
+  }
+  else if (!cut.empty())
+  {
+    task.endAt(static_cast<std::uint64_t>(table.rows), 0, cut);
   }
   const std::vector<std::size_t> read = columnsOfNumbers(table, layout);
   checkCoordinates(table, layout, read);
@@ -537,8 +558,10 @@ void readText(ReadTask& task, vtkPolyData* cloud)
 {
   task.format = "text";
   std::string_view text = withoutByteOrderMark(task.bytes);
+  text = text.substr(0, text.find_last_not_of('\x1a') + 1); // the mark by which DOS ends texts
   const std::string joined = withoutLineEndsInCells(text);
   text = joined.empty() ? text : joined;
+  const std::string cut = takeOffTorn(task, text);
   const TextLayout layout = inspectText(text, task.columns);
   const bool isBlank = layout.columns == 0 && layout.names.empty();
   task.format = layout.hasPointCount ? "PTS"
@@ -558,9 +581,9 @@ void readText(ReadTask& task, vtkPolyData* cloud)
     isUnlike ? fmt::format(", but {} are named", layout.names.size()) : "");
   failTornDecimals(text, layout);
   FileComments comments = layout.comments;
-  takeUnits(layout.names, comments);
+  takeUnits(layout.names, comments, task.notes);
   layout.note.empty() ? void() : task.notes.push_back(layout.note);
-  readTable(task, text, layout, cloud);
+  readTable(task, text, layout, cloud, cut);
   comments.moveTo(cloud, task.notes);
 }
 

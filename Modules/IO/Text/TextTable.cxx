@@ -313,4 +313,21 @@ TextLayout inspectText(std::string_view text, const std::vector<std::string>& na
   return faulty.columns > 0 ? faulty : layout;
 }
 
+std::string takeOffTorn(const ReadTask& task, std::string_view& text)
+{
+  std::string cut;
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+  {
+    cut = atByte(task.bytes.find('\0')) + "zero bytes, as a power cut leaves them";
+    task.salvage ? void() : failTruncated(cut, kSalvageCure);
+    text = text.substr(0, zero);
+  }
+  if (const std::size_t end = text.rfind('\n') + 1; task.salvage && end > 0 && end < text.size())
+  {
+    cut = cut.empty() ? "the file ends within a line" : cut;
+    text = text.substr(0, end);
+  }
+  return cut;
+}
+
 } // namespace pointhaptics::io

@@ -35,7 +35,6 @@ struct TextLayout
   std::size_t columns = 0;    ///< that are read of each line; 0 when there is no line of data
   bool hasMore = false;       ///< lines may have more columns, which are left out
 
-  bool isTable() const { return columns >= 3; }
   void beginAt(std::size_t offset, std::size_t line)
   {
     bodyOffset = offset;
@@ -89,10 +88,15 @@ struct NumberColumn : ColumnEvidence
   }
 };
 
+/// Takes off @p text zero bytes and what follows them, as a power cut leaves them, and of salvaged files the
+/// last line, which may be cut within a number. @return what was the matter; empty: nothing.
+std::string takeOffTorn(const ReadTask& task, std::string_view& text);
+
 /// Fills @p cloud with the points and arrays of a table: the columns are called as in @p layout ("-" skips
 /// one), or as their values suggest (ColumnGuess.h), which task.notes then tells. Columns of texts are left
 /// out, and a few texts among numbers are NaN: task.notes says so; coordinates must be numbers. @throws
-/// FileProblem; StoppedOnRequest.
-void readTable(ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud);
+/// FileProblem; StoppedOnRequest. @param cut: why text is missing behind it; empty: none is.
+void readTable(
+  ReadTask& task, std::string_view text, TextLayout layout, vtkPolyData* cloud, std::string cut = {});
 
 } // namespace pointhaptics::io

@@ -175,6 +175,7 @@ vtkSmartPointer<vtkPointSet> readVtkXmlFile(const ReadTask& task, const std::str
 {
   const vtkSmartPointer<vtkXMLUnstructuredDataReader> reader = makeReader(root.attribute("type"));
   checkVtkXml(bytes, root);
+  pointsOfVtkXml(root, bytes.size()) == 0 ? failNoPoints() : void();
   constexpr double kCheckPart = 0.1;
   const double checked = begin + kCheckPart * (end - begin);
   task.progress(checked);

@@ -110,4 +110,26 @@ TEST_F(Variants, Utf16WithoutAMarkIsText)
   }
 }
 
+TEST_F(Variants, ImagesOfNumpyAreNoPoints)
+{
+  std::string image = numpy(70 * 32, false);
+  image.replace(image.find("(2240, 3)"), 9, "(96,  70)");
+  const std::string file = write("a.npy", image);
+  expectRefused(readCloud(file), "70 columns without names are an image");
+  vtkNew<vtkPointCloudReader> reader;
+  std::vector<std::string> names{ "x", "y", "z" };
+  names.resize(70, "-");
+  reader->SetColumns(names);
+  EXPECT_EQ(readCloudBy(reader, file).points(), 96);
+}
+
+TEST_F(Variants, AnEmptyFileOfVtkHoldsNoPoints)
+{
+  const ReadResult result = readCloud(write("a.vtp",
+    "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>"
+    "<Piece NumberOfPoints=\"0\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+    "NumberOfPolys=\"0\"><Points></Points></Piece></PolyData></VTKFile>\n"));
+  EXPECT_TRUE(result.validWithoutPoints) << result.error;
+}
+
 } // namespace

@@ -60,4 +60,17 @@ TEST(CloudSummary, AFarPointMakesNoVoxelCoarser)
   EXPECT_NEAR(summarize(cloud, "xyz").suggestedVoxel, 0.02, 1e-6); // 0.0625: a step of floats at 1e6
 }
 
+TEST(CloudSummary, InvalidPointsHaveNoStatistics)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(1.0, 2.0, 3.0);
+  points->InsertNextPoint(std::nan(""), 7.0, 7.0);
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  const ArraySummary coordinates = summarize(cloud, "xyz", true).coordinates;
+  EXPECT_EQ(coordinates.type, "float");
+  EXPECT_EQ(coordinates.maxima, (std::vector<double>{ 1.0, 2.0, 3.0 }));
+  EXPECT_EQ(coordinates.means, (std::vector<double>{ 1.0, 2.0, 3.0 }));
+}
+
 } // namespace

@@ -208,4 +208,16 @@ TEST_F(Las, PointsThatTheHeaderDoesNotCountAreSalvaged)
   EXPECT_EQ(readCloudBy(reader, path("a.las")).points(), 2);
 }
 
+TEST_F(Las, PointsBeyondTheCountAreSaidToBeLeftOut)
+{
+  std::string las = makeLas(2, 0, 20);
+  put(las, 107, std::uint32_t{ 1 });
+  const ReadResult result = readCloud(write("a.las", las));
+  EXPECT_EQ(result.points(), 1);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_NE(result.notes[0].find("20 bytes follow what the header counts"), std::string::npos);
+  put(las, 6, std::uint16_t{ 2 });
+  EXPECT_TRUE(readCloud(write("a.las", las)).notes.empty()) << "waveforms may follow";
+}
+
 } // namespace

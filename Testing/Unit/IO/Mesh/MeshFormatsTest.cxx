@@ -243,4 +243,22 @@ TEST_F(MeshFormats, AWordThatBeginsAsOffIsText)
   }
 }
 
+TEST_F(MeshFormats, TrianglesThatAreNotCountedAreSaidToBeLeftOut)
+{
+  std::string stl(80, ' ');
+  append(stl, std::uint32_t{ 1 });
+  for (int i = 0; i < 2; ++i)
+  {
+    for (int value = 0; value < 12; ++value)
+    {
+      append(stl, static_cast<float>(value % 5 + i));
+    }
+    append(stl, std::uint16_t{ 0 });
+  }
+  const ReadResult result = readCloud(write("a.stl", stl));
+  ASSERT_EQ(result.error, "");
+  ASSERT_FALSE(result.notes.empty());
+  EXPECT_NE(result.notes[0].find("50 bytes follow what the header counts"), std::string::npos);
+}
+
 } // namespace

@@ -254,3 +254,22 @@ TEST_F(Ply, WhatTheHeaderDoesNotCountIsSaidToBeLeftOut)
   EXPECT_TRUE(notesOf(binary + std::string(12, '?') + "\n").empty());
   EXPECT_TRUE(notesOf(binary + std::string(12, '?') + std::string(100, '\0')).empty());
 }
+
+TEST_F(Ply, ASecondElementOfVerticesIsSaidToBeLeftOut)
+{
+  const std::string properties = "property float x\nproperty float y\nproperty float z\n";
+  const ReadResult result = readCloud(write("a.ply",
+    "ply\nformat ascii 1.0\nelement vertex 1\n" + properties + "element vertex 2\n" + properties +
+      "end_header\n1 2 3\n4 5 6\n7 8 9\n"));
+  EXPECT_EQ(result.points(), 1);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_NE(result.notes[0].find("2 points of a second element vertex"), std::string::npos);
+}
+
+TEST_F(Ply, AHeaderOfListsAloneIsSaidToHaveNoCoordinates)
+{
+  expectRefused(readCloud(write("a.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar float position\n"
+                  "end_header\n3 1 2 3\n")),
+    "no columns named x, y and z; ");
+}
